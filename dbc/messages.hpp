@@ -1,0 +1,114 @@
+// The messages of this project as physical values: SI units, radians. vehicle.dbc says where each of them stands on
+// the wire; the names of messages and signals there are the names of the structs and members here, in CamelCase.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+namespace dbc {
+
+// ---- in: from the vehicle ------------------------------------------------------------------------------------------
+// The three messages of one state set carry the same counter. Order on the bus: pose, motion, feedback.
+struct VehiclePose {
+  double X = 0.0;  // centre of gravity in the map [m]
+  double Y = 0.0;
+};
+struct VehicleMotion {
+  double upsilon = 0.0;  // longitudinal speed [m/s]
+  double nu = 0.0;       // lateral speed [m/s]
+  double omega = 0.0;    // yaw rate [rad/s]
+};
+struct VehicleFeedback {
+  double psi = 0.0;           // heading, wrapped to [-π, π] [rad]
+  double delta = 0.0;         // steering angle of the front wheels [rad]
+  double acceleration = 0.0;  // longitudinal acceleration [m/s²]
+};
+
+enum class PassingSide : std::uint8_t { kUnknown = 0, kLeft = 1, kRight = 2 };
+
+// One obstacle is told by three frames of the multiplexed message ObstacleObject, in this order.
+struct ObstaclePosition {
+  std::uint8_t object_id = 0;
+  double X = 0.0;  // centre in the map [m]
+  double Y = 0.0;
+};
+struct ObstacleShape {
+  std::uint8_t object_id = 0;
+  double semi_axis_x = 0.0;  // along the heading [m]
+  double semi_axis_y = 0.0;
+  double heading = 0.0;  // [rad]
+  PassingSide passing_side = PassingSide::kUnknown;
+};
+struct ObstacleMotion {
+  std::uint8_t object_id = 0;
+  double velocity_X = 0.0;  // in the map [m/s]
+  double velocity_Y = 0.0;
+};
+// Ends a cycle's obstacle frames: the objects told since the last list are all there are.
+struct ObstacleList {
+  std::uint8_t count = 0;
+};
+
+struct DriverRequest {
+  bool engage = false;             // held while automatic driving is wanted; engagement needs a rising edge
+  bool brake = false;              // driver brakes: override
+  bool steering_override = false;  // driver steers: override
+};
+
+// ---- out: from the controller --------------------------------------------------------------------------------------
+enum class Mode : std::uint8_t { kInit = 0, kStandby = 1, kActive = 2, kDegraded = 3, kSafeStop = 4, kFault = 5 };
+
+struct SteeringCommand {
+  bool enable = false;
+  Mode mode = Mode::kInit;
+  std::uint8_t state_counter = 0;  // counter of the state set that this answers, 15 if it answers none
+  std::uint8_t plan_age = 0;       // cycles since the plan behind it was made, 63 = 63 or more, or no plan
+  double delta = 0.0;              // [rad]
+};
+struct AccelerationCommand {
+  bool enable = false;
+  Mode mode = Mode::kInit;
+  std::uint8_t state_counter = 0;
+  std::uint8_t plan_age = 0;
+  double acceleration = 0.0;  // [m/s²]
+};
+
+enum class SolverStatus : std::uint8_t {
+  kNone = 0,  // no problem was solved in this cycle
+  kSolved = 1,
+  kInfeasible = 2,
+  kIterationLimit = 3,
+  kNumericalFailure = 4,
+};
+
+struct ControllerStatus {
+  Mode mode = Mode::kInit;
+  std::uint8_t fault_code = 0;  // 0 = none; the value table is in vehicle.dbc
+  SolverStatus solver_status = SolverStatus::kNone;
+  std::uint8_t iterations = 0;
+  double solve_time = 0.0;            // whole control step [s]
+  std::uint16_t deadline_misses = 0;  // since start, modulo 1024
+};
+struct SchedulingHealth {
+  double scheduling_error = 0.0;   // max_j |p_j − p̂_j| / e_j: realised against predicted, in trust-region radii
+  std::uint16_t active_rows = 0;   // active trust-region constraints
+  double largest_slack = 0.0;      // in trust-region radii
+};
+// The planned horizon: one header frame, then a frame for each of its points.
+struct HorizonHeader {
+  std::uint8_t points = 0;         // N + 1
+  std::uint8_t state_counter = 0;  // counter of the state set that it starts from
+  double step = 0.0;               // t_s [s]
+};
+struct HorizonPoint {
+  std::uint8_t index = 0;
+  double X = 0.0;
+  double Y = 0.0;
+};
+
+using Message =
+    std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape, ObstacleMotion,
+                 ObstacleList, DriverRequest, SteeringCommand, AccelerationCommand, ControllerStatus,
+                 SchedulingHealth, HorizonHeader, HorizonPoint>;
+
+}  // namespace dbc

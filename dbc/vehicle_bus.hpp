@@ -1,0 +1,81 @@
+// The typed messages bound to a DBC: physical values to payload bytes and back, with end-to-end protection.
+//
+// Example:
+//   dbc::VehicleBus bus;                                        // the built-in dbc/vehicle.dbc
+//   dbc::RawMessage raw;
+//   if (bus.Encode(dbc::VehiclePose{.X = 12.0, .Y = -3.5}, counter, raw) != dbc::EncodeStatus::kOk) ...
+//   ... bus.Check(raw.id, raw.Payload()) ... bus.Decode(raw.id, raw.Payload()) ...
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dbc/codec.hpp"
+#include "dbc/database.hpp"
+#include "dbc/messages.hpp"
+
+namespace dbc {
+
+struct RawMessage {
+  std::uint32_t id = 0;
+  std::uint8_t length = 0;
+  std::array<std::byte, 8> data{};
+
+  [[nodiscard]] std::span<const std::byte> Payload() const { return {data.data(), length}; }
+};
+
+// What is on the wire of one message of ours, for the receive monitor.
+struct MessageInfo {
+  std::uint32_t id = 0;
+  std::string name;
+  std::uint8_t length = 0;
+  double period = 0.0;         // [s], attribute GenMsgCycleTime; 0 = not periodic
+  std::uint16_t data_id = 0;   // attribute E2EDataId
+};
+
+enum class E2eVerdict : std::uint8_t { kOk, kWrongLength, kWrongCrc, kInvalidCounter, kUnknownMessage };
+
+struct E2eCheck {
+  E2eVerdict verdict = E2eVerdict::kUnknownMessage;
+  std::uint8_t counter = 0;  // as received; valid unless the length is wrong or the message unknown
+};
+
+class VehicleBus {
+ public:
+  VehicleBus();  // the built-in vehicle.dbc
+  // Throws std::runtime_error that names the message or signal that `database` lacks.
+  explicit VehicleBus(Database database);
+  ~VehicleBus();
+  VehicleBus(VehicleBus&&) noexcept;
+  VehicleBus& operator=(VehicleBus&&) noexcept;
+
+  // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value (kNotFinite,
+  // `out` is unchanged). Does not allocate.
+  [[nodiscard]] EncodeStatus Encode(const Message& message, std::uint8_t counter, RawMessage& out) const;
+
+  // Length, CRC and range of the counter; whether the counter follows its predecessor is the receiver's to judge.
+  [[nodiscard]] E2eCheck Check(std::uint32_t id, std::span<const std::byte> payload) const;
+
+  // Nothing if the id is not one of ours, the payload is too short, or a multiplexor or enumeration has no such value.
+  [[nodiscard]] std::optional<Message> Decode(std::uint32_t id, std::span<const std::byte> payload) const;
+
+  [[nodiscard]] const std::vector<MessageInfo>& messages() const;
+  [[nodiscard]] const MessageInfo* Find(std::uint32_t id) const;
+  [[nodiscard]] const MessageInfo* Find(const std::string& name) const;
+  [[nodiscard]] const Database& database() const;
+
+ private:
+  struct Binding;
+  std::unique_ptr<Binding> binding_;
+};
+
+// Text of the built-in dbc/vehicle.dbc.
+[[nodiscard]] std::string_view BuiltInDbc();
+
+}  // namespace dbc
