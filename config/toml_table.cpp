@@ -1,1 +1,330 @@
 #include "config/toml_table.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include <toml++/toml.h>
+
+#include "config/edit_distance.hpp"
+
+namespace config {
+namespace {
+
+struct Document {
+  std::string name;
+  std::filesystem::path folder;
+  toml::table root;
+};
+
+// Keeps a message on one line whatever stands in the file.
+std::string Printable(std::string_view text) {
+  constexpr std::size_t kLongest = 80;
+  std::string out;
+  for (const char c : text.substr(0, kLongest)) out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  if (text.size() > kLongest) out += "...";
+  return out;
+}
+
+template <typename T>
+std::string FormatRange(const Range<T>& range, std::string_view unit) {
+  return fmt::format("{}, {}{}{}", range.min == Range<T>{}.min ? "(-inf" : fmt::format("[{}", range.min),
+                     range.max == Range<T>{}.max ? "inf)" : fmt::format("{}]", range.max),
+                     unit.empty() ? "" : " ", unit);
+}
+
+std::string FormatValue(const toml::node& node) {
+  if (const auto* value = node.as_string()) return fmt::format(" = \"{}\"", Printable(value->get()));
+  if (const auto* value = node.as_integer()) return fmt::format(" = {}", value->get());
+  if (const auto* value = node.as_floating_point()) return fmt::format(" = {}", value->get());
+  if (const auto* value = node.as_boolean()) return fmt::format(" = {}", value->get());
+  return "";
+}
+
+std::string_view TypeName(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "table";
+    case toml::node_type::array:
+      return "array";
+    case toml::node_type::string:
+      return "string";
+    case toml::node_type::integer:
+      return "integer";
+    case toml::node_type::floating_point:
+      return "number";
+    case toml::node_type::boolean:
+      return "boolean";
+    default:
+      return "date or time";
+  }
+}
+
+ConfigError ErrorAt(const Document& document, unsigned line, std::string_view text) {
+  return ConfigError(fmt::format("{}:{}: {}", document.name, std::max(line, 1u), text));
+}
+
+ConfigError ValueError(const Document& document, std::string_view key, const toml::node& node,
+                       std::string_view text) {
+  return ErrorAt(document, node.source().begin.line,
+                 fmt::format("key '{}'{} {}", Printable(key), FormatValue(node), text));
+}
+
+ConfigError TypeError(const Document& document, std::string_view key, const toml::node& node,
+                      std::string_view wanted) {
+  return ValueError(document, key, node, fmt::format("({}) must be {}", TypeName(node), wanted));
+}
+
+double ToNumber(const Document& document, const std::string& key, const toml::node& node,
+                const Range<double>& range, std::string_view unit) {
+  if (!node.is_number()) throw TypeError(document, key, node, "a number");
+  const double value = *node.value<double>();
+  if (!std::isfinite(value)) throw ValueError(document, key, node, "is not a finite number");
+  if (value < range.min || value > range.max) {
+    throw ValueError(document, key, node, fmt::format("is outside {}", FormatRange(range, unit)));
+  }
+  return value;
+}
+
+std::string Join(const std::vector<std::string>& choices) {
+  return fmt::format("\"{}\"", fmt::join(choices, "\", \""));
+}
+
+}  // namespace
+
+struct TomlTable::Node {
+  std::shared_ptr<const Document> document;
+  const toml::table* table = nullptr;  // null: the file does not have it
+  std::string prefix;                  // of its keys, "" or with a dot at the end
+  unsigned line = 1;
+  std::set<std::string, std::less<>> asked;
+  std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> children;
+
+  std::string FullKey(std::string_view key) const { return prefix + std::string(key); }
+
+  const toml::node* Find(std::string_view key) {
+    asked.emplace(key);
+    return table == nullptr ? nullptr : table->get(key);
+  }
+
+  const toml::node& Get(std::string_view key, std::string_view wanted) {
+    const toml::node* node = Find(key);
+    if (node == nullptr) {
+      throw ErrorAt(*document, line, fmt::format("key '{}' is missing ({})", FullKey(key), wanted));
+    }
+    return *node;
+  }
+
+  std::shared_ptr<Node> Child(const toml::table* child, const std::string& key) const {
+    return std::make_shared<Node>(Node{.document = document,
+                                       .table = child,
+                                       .prefix = key + ".",
+                                       .line = child == nullptr ? line : child->source().begin.line,
+                                       .asked = {},
+                                       .children = {}});
+  }
+
+  struct Unknown {
+    unsigned line;
+    std::string text;
+  };
+  void CollectUnknown(std::vector<Unknown>& unknown) const {
+    if (table != nullptr) {
+      for (const auto& [key, value] : *table) {
+        if (asked.contains(key.str())) continue;
+        std::string text = fmt::format("unknown key '{}'", Printable(FullKey(key.str())));
+        const std::string nearest = Nearest(key.str());
+        if (!nearest.empty()) text += fmt::format(", is '{}' meant?", FullKey(nearest));
+        unknown.push_back({value.source().begin.line, text});
+      }
+    }
+    for (const auto& [key, nodes] : children) {
+      for (const std::shared_ptr<Node>& node : nodes) node->CollectUnknown(unknown);
+    }
+  }
+  std::string Nearest(std::string_view key) const {
+    std::string nearest;
+    std::size_t best = 3;  // more slips than two make another word
+    for (const std::string& candidate : asked) {
+      const std::size_t distance = EditDistance(key, candidate);
+      if (distance < best && distance < candidate.size() && !table->contains(candidate)) {
+        best = distance;
+        nearest = candidate;
+      }
+    }
+    return nearest;
+  }
+};
+
+TomlTable::TomlTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+
+TomlTable TomlTable::Read(const std::filesystem::path& file) {
+  const auto unreadable = [&](int error) {
+    return ConfigError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(error)));
+  };
+  std::error_code unused;
+  if (std::filesystem::is_directory(file, unused)) throw unreadable(EISDIR);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw unreadable(errno);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw unreadable(EIO);
+  return Parse(text, file.string());
+}
+
+TomlTable TomlTable::Parse(std::string_view text, const std::string& source_name) {
+  auto document = std::make_shared<Document>();
+  document->name = source_name;
+  document->folder = std::filesystem::path(source_name).parent_path();
+  try {
+    document->root = toml::parse(text, source_name);
+  } catch (const toml::parse_error& error) {
+    throw ErrorAt(*document, error.source().begin.line, Printable(error.description()));
+  }
+  auto node = std::make_shared<Node>();
+  node->table = &document->root;
+  node->document = std::move(document);
+  return TomlTable(std::move(node));
+}
+
+double TomlTable::Number(std::string_view key, Range<double> range, std::string_view unit) const {
+  const toml::node& node = node_->Get(key, fmt::format("a number in {}", FormatRange(range, unit)));
+  return ToNumber(*node_->document, node_->FullKey(key), node, range, unit);
+}
+
+int TomlTable::Integer(std::string_view key, Range<int> range) const {
+  const toml::node& node = node_->Get(key, fmt::format("an integer in {}", FormatRange(range, "")));
+  if (!node.is_integer()) throw TypeError(*node_->document, node_->FullKey(key), node, "an integer");
+  const std::int64_t value = *node.value<std::int64_t>();
+  if (value < range.min || value > range.max) {
+    throw ValueError(*node_->document, node_->FullKey(key), node,
+                     fmt::format("is outside {}", FormatRange(range, "")));
+  }
+  return static_cast<int>(value);
+}
+
+bool TomlTable::Boolean(std::string_view key) const {
+  const toml::node& node = node_->Get(key, "true or false");
+  if (!node.is_boolean()) throw TypeError(*node_->document, node_->FullKey(key), node, "true or false");
+  return *node.value<bool>();
+}
+
+std::string TomlTable::Text(std::string_view key) const {
+  const toml::node& node = node_->Get(key, "a string");
+  if (!node.is_string()) throw TypeError(*node_->document, node_->FullKey(key), node, "a string");
+  return *node.value<std::string>();
+}
+
+std::size_t TomlTable::Choice(std::string_view key, const std::vector<std::string>& choices) const {
+  const toml::node& node = node_->Get(key, fmt::format("one of {}", Join(choices)));
+  if (!node.is_string())
+    throw TypeError(*node_->document, node_->FullKey(key), node, fmt::format("one of {}", Join(choices)));
+  const auto found = std::ranges::find(choices, *node.value<std::string>());
+  if (found == choices.end()) {
+    throw ValueError(*node_->document, node_->FullKey(key), node,
+                     fmt::format("must be one of {}", Join(choices)));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::vector<double> TomlTable::Numbers(std::string_view key, std::size_t count, Range<double> range,
+                                       std::string_view unit) const {
+  const std::string wanted =
+      count == 0 ? "an array of numbers" : fmt::format("an array of {} numbers", count);
+  const toml::node& node = node_->Get(key, wanted);
+  const toml::array* array = node.as_array();
+  if (array == nullptr) throw TypeError(*node_->document, node_->FullKey(key), node, wanted);
+  if (count != 0 && array->size() != count) {
+    throw ValueError(*node_->document, node_->FullKey(key), node,
+                     fmt::format("has {} elements, must be {}", array->size(), wanted));
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string element = fmt::format("{}[{}]", node_->FullKey(key), i);
+    values.push_back(ToNumber(*node_->document, element, *array->get(i), range, unit));
+  }
+  return values;
+}
+
+std::filesystem::path TomlTable::Path(std::string_view key) const {
+  const std::string text = Text(key);
+  if (text.empty()) throw Error(key, "must not be empty");
+  return (node_->document->folder / text).lexically_normal();
+}
+
+double TomlTable::NumberOr(std::string_view key, double fallback, Range<double> range,
+                           std::string_view unit) const {
+  return Has(key) ? Number(key, range, unit) : fallback;
+}
+
+int TomlTable::IntegerOr(std::string_view key, int fallback, Range<int> range) const {
+  return Has(key) ? Integer(key, range) : fallback;
+}
+
+bool TomlTable::BooleanOr(std::string_view key, bool fallback) const {
+  return Has(key) ? Boolean(key) : fallback;
+}
+
+std::string TomlTable::TextOr(std::string_view key, const std::string& fallback) const {
+  return Has(key) ? Text(key) : fallback;
+}
+
+std::size_t TomlTable::ChoiceOr(std::string_view key, std::size_t fallback,
+                                const std::vector<std::string>& choices) const {
+  return Has(key) ? Choice(key, choices) : fallback;
+}
+
+bool TomlTable::Has(std::string_view key) const {
+  return node_->Find(key) != nullptr;
+}
+
+TomlTable TomlTable::Table(std::string_view key) const {
+  const toml::node* node = node_->Find(key);
+  if (node != nullptr && !node->is_table()) {
+    throw TypeError(*node_->document, node_->FullKey(key), *node, "a table");
+  }
+  auto& children = node_->children[std::string(key)];
+  if (children.empty()) {
+    children.push_back(node_->Child(node == nullptr ? nullptr : node->as_table(), node_->FullKey(key)));
+  }
+  return TomlTable(children.front());
+}
+
+std::vector<TomlTable> TomlTable::Tables(std::string_view key) const {
+  const toml::node* node = node_->Find(key);
+  if (node == nullptr) return {};
+  const toml::array* array = node->as_array();
+  if (array == nullptr) throw TypeError(*node_->document, node_->FullKey(key), *node, "an array of tables");
+  auto& children = node_->children[std::string(key)];
+  std::vector<TomlTable> tables;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string element = fmt::format("{}[{}]", node_->FullKey(key), i);
+    const toml::table* table = array->get(i)->as_table();
+    if (table == nullptr) throw TypeError(*node_->document, element, *array->get(i), "a table");
+    if (children.size() <= i) children.push_back(node_->Child(table, element));
+    tables.push_back(TomlTable(children[i]));
+  }
+  return tables;
+}
+
+void TomlTable::RefuseUnknownKeys() const {
+  std::vector<Node::Unknown> unknown;
+  node_->CollectUnknown(unknown);
+  if (unknown.empty()) return;
+  const auto first = std::ranges::min_element(unknown, {}, &Node::Unknown::line);
+  throw ErrorAt(*node_->document, first->line, first->text);
+}
+
+ConfigError TomlTable::Error(std::string_view key, std::string_view text) const {
+  const toml::node* node = node_->Find(key);
+  if (node != nullptr) return ValueError(*node_->document, node_->FullKey(key), *node, text);
+  return ErrorAt(*node_->document, node_->line, fmt::format("key '{}' {}", node_->FullKey(key), text));
+}
+
+}  // namespace config

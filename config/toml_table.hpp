@@ -5,7 +5,8 @@
 //   const config::TomlTable mpc = file.Table("controller");
 //   const int horizon = mpc.IntegerOr("horizon", 8, {1, 200});
 //   const double left = file.Table("road").Number("left", {0.0, 100.0}, "m");
-//   file.RefuseUnknownKeys();   // a key that nobody asked for is an error, in `file` and in every table taken from it
+//   file.RefuseUnknownKeys();   // a key that nobody asked for is an error, in `file` and in every table
+//   taken from it
 #pragma once
 
 #include <filesystem>
@@ -38,7 +39,8 @@ class TomlTable {
   [[nodiscard]] static TomlTable Parse(std::string_view text, const std::string& source_name);
 
   // Each throws ConfigError: the key is missing, has another type, or its value lies outside the range.
-  [[nodiscard]] double Number(std::string_view key, Range<double> range = {}, std::string_view unit = "") const;
+  [[nodiscard]] double Number(std::string_view key, Range<double> range = {},
+                              std::string_view unit = "") const;
   [[nodiscard]] int Integer(std::string_view key, Range<int> range = {}) const;
   [[nodiscard]] bool Boolean(std::string_view key) const;
   [[nodiscard]] std::string Text(std::string_view key) const;
