@@ -1,6 +1,6 @@
-// End-to-end protection in the style of AUTOSAR E2E profile 1: a CRC-8 with the SAE J1850 polynomial (0x1D, initial
-// value 0, no final xor) over the data id (low byte, high byte) and every byte of the payload but the CRC's own, and a
-// counter 0..14 that goes up by one with every transmission.
+// End-to-end protection in the style of AUTOSAR E2E profile 1: a CRC-8 with the SAE J1850 polynomial (0x1D,
+// initial value 0, no final xor) over the data id (low byte, high byte) and every byte of the payload but the
+// CRC's own, and a counter 0..14 that goes up by one with every transmission.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ inline constexpr std::uint8_t kCounterModulus = 15;  // 15 (0xF) is invalid
 }
 
 // CRC-8 with polynomial x⁸+x⁴+x³+x²+1 (0x1D), most significant bit first.
-[[nodiscard]] std::uint8_t Crc8J1850(std::span<const std::byte> bytes, std::uint8_t initial, std::uint8_t final_xor);
+[[nodiscard]] std::uint8_t Crc8J1850(std::span<const std::byte> bytes, std::uint8_t initial,
+                                     std::uint8_t final_xor);
 
 // CRC of a payload whose CRC byte is byte 0.
 [[nodiscard]] std::uint8_t E2eProfile1Crc(std::uint16_t data_id, std::span<const std::byte> payload);

@@ -1,5 +1,6 @@
-// The messages of this project as physical values: SI units, radians. vehicle.dbc says where each of them stands on
-// the wire; the names of messages and signals there are the names of the structs and members here, in CamelCase.
+// The messages of this project as physical values: SI units, radians. vehicle.dbc says where each of them
+// stands on the wire; the names of messages and signals there are the names of the structs and members here,
+// in CamelCase.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +8,9 @@
 
 namespace dbc {
 
-// ---- in: from the vehicle ------------------------------------------------------------------------------------------
-// The three messages of one state set carry the same counter. Order on the bus: pose, motion, feedback.
+// ---- in: from the vehicle
+// ------------------------------------------------------------------------------------------ The three
+// messages of one state set carry the same counter. Order on the bus: pose, motion, feedback.
 struct VehiclePose {
   double X = 0.0;  // centre of gravity in the map [m]
   double Y = 0.0;
@@ -36,7 +38,7 @@ struct ObstacleShape {
   std::uint8_t object_id = 0;
   double semi_axis_x = 0.0;  // along the heading [m]
   double semi_axis_y = 0.0;
-  double heading = 0.0;  // [rad]
+  double heading = 0.0;  // wrapped to [-π, π] [rad]
   PassingSide passing_side = PassingSide::kUnknown;
 };
 struct ObstacleMotion {
@@ -55,8 +57,16 @@ struct DriverRequest {
   bool steering_override = false;  // driver steers: override
 };
 
-// ---- out: from the controller --------------------------------------------------------------------------------------
-enum class Mode : std::uint8_t { kInit = 0, kStandby = 1, kActive = 2, kDegraded = 3, kSafeStop = 4, kFault = 5 };
+// ---- out: from the controller
+// --------------------------------------------------------------------------------------
+enum class Mode : std::uint8_t {
+  kInit = 0,
+  kStandby = 1,
+  kActive = 2,
+  kDegraded = 3,
+  kSafeStop = 4,
+  kFault = 5
+};
 
 struct SteeringCommand {
   bool enable = false;
@@ -81,18 +91,35 @@ enum class SolverStatus : std::uint8_t {
   kNumericalFailure = 4,
 };
 
+enum class FaultCode : std::uint8_t {
+  kNone = 0,
+  kStateStale = 1,
+  kStateInvalid = 2,  // CRC or counter of the state's messages persistently bad
+  kObstaclesStale = 3,
+  kDriverRequestStale = 4,
+  kSolverInfeasible = 5,
+  kSolverIterationLimit = 6,
+  kSolverNumericalFailure = 7,
+  kPlanExhausted = 8,  // the last accepted plan is used up
+  kRouteEnd = 9,
+  kOffRoute = 10,
+  kBusDown = 11,
+  kInternalError = 12,
+};
+
 struct ControllerStatus {
   Mode mode = Mode::kInit;
-  std::uint8_t fault_code = 0;  // 0 = none; the value table is in vehicle.dbc
+  FaultCode fault_code = FaultCode::kNone;
   SolverStatus solver_status = SolverStatus::kNone;
   std::uint8_t iterations = 0;
   double solve_time = 0.0;            // whole control step [s]
   std::uint16_t deadline_misses = 0;  // since start, modulo 1024
 };
 struct SchedulingHealth {
-  double scheduling_error = 0.0;   // max_j |p_j − p̂_j| / e_j: realised against predicted, in trust-region radii
-  std::uint16_t active_rows = 0;   // active trust-region constraints
-  double largest_slack = 0.0;      // in trust-region radii
+  double scheduling_error =
+      0.0;  // max_j |p_j − p̂_j| / e_j: realised against predicted, in trust-region radii
+  std::uint16_t active_rows = 0;  // active trust-region constraints
+  double largest_slack = 0.0;     // in trust-region radii
 };
 // The planned horizon: one header frame, then a frame for each of its points.
 struct HorizonHeader {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dbc/codec.hpp"
@@ -35,8 +36,8 @@ struct MessageInfo {
   std::uint32_t id = 0;
   std::string name;
   std::uint8_t length = 0;
-  double period = 0.0;         // [s], attribute GenMsgCycleTime; 0 = not periodic
-  std::uint16_t data_id = 0;   // attribute E2EDataId
+  double period = 0.0;        // [s], attribute GenMsgCycleTime; 0 = not periodic
+  std::uint16_t data_id = 0;  // attribute E2EDataId
 };
 
 enum class E2eVerdict : std::uint8_t { kOk, kWrongLength, kWrongCrc, kInvalidCounter, kUnknownMessage };
@@ -46,23 +47,28 @@ struct E2eCheck {
   std::uint8_t counter = 0;  // as received; valid unless the length is wrong or the message unknown
 };
 
+// Every id here is a standard one: keep extended frames away from Check and Decode, they could bear the same
+// number.
 class VehicleBus {
  public:
   VehicleBus();  // the built-in vehicle.dbc
-  // Throws std::runtime_error that names the message or signal that `database` lacks.
+  // Any DBC with the same names. Throws std::runtime_error that names the message, signal or attribute that
+  // `database` lacks or that cannot carry ours (an extended id, more than 8 bytes, a CRC that is not byte 0).
   explicit VehicleBus(Database database);
   ~VehicleBus();
   VehicleBus(VehicleBus&&) noexcept;
   VehicleBus& operator=(VehicleBus&&) noexcept;
 
-  // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value (kNotFinite,
-  // `out` is unchanged). Does not allocate.
+  // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value
+  // (kNotFinite, `out` is unchanged). Does not allocate.
   [[nodiscard]] EncodeStatus Encode(const Message& message, std::uint8_t counter, RawMessage& out) const;
 
-  // Length, CRC and range of the counter; whether the counter follows its predecessor is the receiver's to judge.
+  // Length, CRC and range of the counter; whether the counter follows its predecessor is the receiver's to
+  // judge.
   [[nodiscard]] E2eCheck Check(std::uint32_t id, std::span<const std::byte> payload) const;
 
-  // Nothing if the id is not one of ours, the payload is too short, or a multiplexor or enumeration has no such value.
+  // Nothing if the id is not one of ours, the payload is too short, or a multiplexor or enumeration has no
+  // such value.
   [[nodiscard]] std::optional<Message> Decode(std::uint32_t id, std::span<const std::byte> payload) const;
 
   [[nodiscard]] const std::vector<MessageInfo>& messages() const;

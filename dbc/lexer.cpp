@@ -1,0 +1,132 @@
+#include "dbc/lexer.hpp"
+
+#include <cstdio>
+
+#include "dbc/parser.hpp"
+
+namespace dbc {
+namespace {
+
+bool IsDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool IsLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool IsSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
+}
+
+class Lexer {
+ public:
+  Lexer(std::string_view text, const std::string& source_name) : text_(text), source_name_(source_name) {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark of UTF-8
+  }
+
+  Token Next() {
+    while (!AtEnd() && IsSpace(Peek())) Take();
+    Token token;
+    token.line = line_;
+    token.column = column_;
+    if (AtEnd()) return token;
+    const char c = Peek();
+    if (IsLetter(c)) {
+      token.kind = Token::Kind::kIdentifier;
+      while (!AtEnd() && (IsLetter(Peek()) || IsDigit(Peek()))) token.text += Take();
+    } else if (IsDigit(c) || (c == '.' && IsDigit(Peek(1)))) {
+      token.kind = Token::Kind::kNumber;
+      TakeNumber(token);
+    } else if (c == '"') {
+      token.kind = Token::Kind::kString;
+      TakeString(token);
+    } else if (std::string_view(":;,|@+-()[]").find(c) != std::string_view::npos) {
+      token.kind = Token::Kind::kPunctuation;
+      token.text = Take();
+    } else {
+      char name[8];
+      std::snprintf(name, sizeof name, c > ' ' && c < 0x7F ? "'%c'" : "0x%02X",
+                    static_cast<unsigned char>(c));
+      throw DbcError(
+          source_name_, line_, column_,
+          std::string("found character ") + name + ", which no DBC statement holds outside a string");
+    }
+    return token;
+  }
+
+ private:
+  [[nodiscard]] bool AtEnd() const { return position_ >= text_.size(); }
+  [[nodiscard]] char Peek(std::size_t ahead = 0) const {
+    return position_ + ahead < text_.size() ? text_[position_ + ahead] : '\0';
+  }
+
+  char Take() {
+    const char c = text_[position_++];
+    ++column_;
+    if (c == '\n') {
+      ++line_;
+      column_ = 1;
+    }
+    return c;
+  }
+
+  void TakeNumber(Token& token) {
+    const auto digits = [&] {
+      while (IsDigit(Peek())) token.text += Take();
+    };
+    digits();
+    if (Peek() == '.') token.text += Take();
+    digits();
+    if (Peek() != 'e' && Peek() != 'E') return;
+    const std::size_t sign = Peek(1) == '+' || Peek(1) == '-' ? 1 : 0;
+    if (!IsDigit(Peek(1 + sign))) return;
+    for (std::size_t i = 0; i <= sign; ++i) token.text += Take();
+    digits();
+  }
+
+  void TakeString(Token& token) {
+    Take();
+    while (!AtEnd() && Peek() != '"') {
+      if (Peek() == '\\' && Peek(1) == '"') Take();
+      token.text += Take();
+    }
+    if (AtEnd())
+      throw DbcError(source_name_, token.line, token.column, "found a string without its closing '\"'");
+    Take();
+  }
+
+  std::string_view text_;
+  const std::string& source_name_;
+  std::size_t position_ = 0;
+  int line_ = 1;
+  int column_ = 1;
+};
+
+}  // namespace
+
+std::string Describe(const Token& token) {
+  // Only the beginning of a long string, and no line break: an error is one line.
+  std::string text = token.text.substr(0, 32);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  if (token.text.size() > text.size()) text += "...";
+  switch (token.kind) {
+    case Token::Kind::kString:
+      return "\"" + text + "\"";
+    case Token::Kind::kEnd:
+      return "the end of the file";
+    default:
+      return "'" + text + "'";
+  }
+}
+
+std::vector<Token> Tokenize(std::string_view text, const std::string& source_name) {
+  Lexer lexer(text, source_name);
+  std::vector<Token> tokens;
+  do {
+    tokens.push_back(lexer.Next());
+  } while (tokens.back().kind != Token::Kind::kEnd);
+  return tokens;
+}
+
+}  // namespace dbc
