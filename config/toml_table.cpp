@@ -1,19 +1,15 @@
 #include "config/toml_table.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
-#include <system_error>
 
 #include <toml++/toml.h>
 
 #include "config/edit_distance.hpp"
+#include "config/text_file.hpp"
 
 namespace config {
 namespace {
@@ -23,15 +19,6 @@ struct Document {
   std::filesystem::path folder;
   toml::table root;
 };
-
-// Keeps a message on one line whatever stands in the file.
-std::string Printable(std::string_view text) {
-  constexpr std::size_t kLongest = 80;
-  std::string out;
-  for (const char c : text.substr(0, kLongest)) out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  if (text.size() > kLongest) out += "...";
-  return out;
-}
 
 template <typename T>
 std::string FormatRange(const Range<T>& range, std::string_view unit) {
@@ -166,16 +153,7 @@ struct TomlTable::Node {
 TomlTable::TomlTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
 
 TomlTable TomlTable::Read(const std::filesystem::path& file) {
-  const auto unreadable = [&](int error) {
-    return ConfigError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(error)));
-  };
-  std::error_code unused;
-  if (std::filesystem::is_directory(file, unused)) throw unreadable(EISDIR);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw unreadable(errno);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw unreadable(EIO);
-  return Parse(text, file.string());
+  return Parse(ReadTextFile(file), file.string());
 }
 
 TomlTable TomlTable::Parse(std::string_view text, const std::string& source_name) {

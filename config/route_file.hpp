@@ -1,0 +1,32 @@
+// A route file in TOML: the reference path with its target speed, and the width of the road about it.
+//
+//   [route]
+//   start = {X = 0.0, Y = 0.0, psi = 0.0}     # [m], [m], [rad]
+//   speed = 12.0                              # target speed at the start [m/s]
+//   pieces = [                                # lengths [m], curvatures [1/m] and turns positive to the left
+//     {kind = "straight", length = 100.0},
+//     {kind = "clothoid", length = 40.0, curvature_from = 0.0, curvature_to = 0.0125},
+//     {kind = "arc", length = 60.0, curvature = 0.0125},            # or radius = 80.0, turn = "left"
+//     {kind = "straight", length = 50.0, speed = 8.0},              # any piece: target speed at its end
+//   ]
+//   # instead of start and pieces: waypoints = "points.csv"         # header X,Y; a natural cubic spline goes
+//   through [road] left = 4.0                                # from the path to the road's edges, both
+//   positive [m] right = 4.0
+#pragma once
+
+#include <filesystem>
+
+#include "control/route.hpp"
+#include "control/types.hpp"
+
+namespace config {
+
+struct RouteFile {
+  control::Route route;
+  control::RoadBounds road;
+};
+
+// Throws ConfigError that names file, line, key, value and what is allowed.
+[[nodiscard]] RouteFile LoadRoute(const std::filesystem::path& file);
+
+}  // namespace config

@@ -1,0 +1,35 @@
+#include "config/text_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "config/toml_table.hpp"
+
+namespace config {
+
+std::string ReadTextFile(const std::filesystem::path& file) {
+  const auto unreadable = [&](int error) {
+    return ConfigError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(error)));
+  };
+  std::error_code unused;
+  if (std::filesystem::is_directory(file, unused)) throw unreadable(EISDIR);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw unreadable(errno);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw unreadable(EIO);
+  return text;
+}
+
+std::string Printable(std::string_view text) {
+  constexpr std::size_t kLongest = 80;
+  std::string out;
+  for (const char c : text.substr(0, kLongest)) out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  if (text.size() > kLongest) out += "...";
+  return out;
+}
+
+}  // namespace config
