@@ -1,0 +1,44 @@
+#include "control/command_limiter.hpp"
+
+#include <algorithm>
+
+namespace control {
+namespace {
+
+double Clamp(double value, double lo, double hi, bool& limited) {
+  const double clamped = std::clamp(value, lo, hi);
+  limited = clamped != value;
+  return clamped;
+}
+
+}  // namespace
+
+LimitResult CommandLimiter::Limit(const Input& wanted, const Input& applied, int age) const {
+  LimitResult result;
+  if (!wanted.allFinite() || !applied.allFinite()) {
+    return result;
+  }
+  if (age < 0 || age > limits_.max_age) {
+    result.status = LimitStatus::kTooOld;
+    return result;
+  }
+  const CommandLimits& l = limits_;
+  // Rate about a value within range stays within range: both hold at the end.
+  const double delta_applied = std::clamp(applied[kDelta], -l.max_steering, l.max_steering);
+  const double a_applied = std::clamp(applied[kAcceleration], l.min_acceleration, l.max_acceleration);
+  Input u = wanted;
+  u[kDelta] = Clamp(u[kDelta], -l.max_steering, l.max_steering, result.steering_range);
+  u[kDelta] = Clamp(u[kDelta], delta_applied - l.max_steering_step, delta_applied + l.max_steering_step,
+                    result.steering_rate);
+  u[kAcceleration] =
+      Clamp(u[kAcceleration], l.min_acceleration, l.max_acceleration, result.acceleration_range);
+  u[kAcceleration] = Clamp(u[kAcceleration], a_applied - l.max_acceleration_step,
+                           a_applied + l.max_acceleration_step, result.acceleration_rate);
+  const bool limited =
+      result.steering_range || result.steering_rate || result.acceleration_range || result.acceleration_rate;
+  result.status = limited ? LimitStatus::kLimited : LimitStatus::kPassed;
+  result.command = LimitedCommand(u);
+  return result;
+}
+
+}  // namespace control
