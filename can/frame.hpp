@@ -38,6 +38,10 @@ struct Frame {
   }
 };
 
+// True if the frame can stand on a bus: id and length in range for its kind, and remote and error frames
+// classic.
+[[nodiscard]] bool IsValid(const Frame& frame);
+
 // True if both would look the same on the wire; time stamps are not compared.
 [[nodiscard]] bool SameOnWire(const Frame& a, const Frame& b);
 
