@@ -1,0 +1,69 @@
+// A child process of a test: started at once, its output kept in files, killed at the end of its scope.
+//
+//   Process daemon({kBinDir + "/lpvmpcd", "--config", config});
+//   daemon.Signal(SIGTERM);
+//   EXPECT_EQ(daemon.Wait(5s), 0);
+//   EXPECT_THAT(daemon.Stderr(), HasSubstr("stopped"));
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <sys/types.h>
+#include <thread>
+#include <vector>
+
+#include "tests/support/temp_dir.hpp"
+
+namespace test_support {
+
+class Process {
+ public:
+  // Starts argv[0], looked up in PATH, with an empty stdin. Throws std::runtime_error if it cannot be
+  // started.
+  explicit Process(const std::vector<std::string>& argv);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void Signal(int signal);
+
+  // The exit status, 128 + N after signal N; none if it still runs after `timeout`.
+  [[nodiscard]] std::optional<int> Wait(std::chrono::milliseconds timeout);
+  [[nodiscard]] bool Running() { return !Wait(std::chrono::milliseconds(0)).has_value(); }
+
+  // What it has written so far.
+  [[nodiscard]] std::string Stdout() const;
+  [[nodiscard]] std::string Stderr() const;
+
+  [[nodiscard]] pid_t pid() const { return pid_; }
+
+ private:
+  TempDir folder_;
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+};
+
+struct Outcome {
+  int status = 0;  // as of Process::Wait
+  std::string out;
+  std::string err;
+};
+
+// Runs a command to its end. Throws std::runtime_error if that takes longer than `timeout`.
+[[nodiscard]] Outcome Run(const std::vector<std::string>& argv,
+                          std::chrono::milliseconds timeout = std::chrono::seconds(30));
+
+// Asks `condition` every few milliseconds until it is true. False if it is not by `timeout`.
+template <typename Condition>
+[[nodiscard]] bool WaitUntil(Condition condition,
+                             std::chrono::milliseconds timeout = std::chrono::seconds(10)) {
+  const auto end = std::chrono::steady_clock::now() + timeout;
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+}  // namespace test_support
