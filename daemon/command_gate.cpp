@@ -1,0 +1,76 @@
+#include "daemon/command_gate.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "daemon/mode_machine.hpp"
+#include "dbc/e2e.hpp"
+
+namespace lpvmpcd {
+
+CommandGate::CommandGate(const dbc::VehicleBus& bus) : bus_(&bus) {
+  constexpr std::array<const char*, kTxMessages> kNames = {
+      "SteeringCommand", "AccelerationCommand", "ControllerStatus", "SchedulingHealth", "PlannedHorizon"};
+  for (std::size_t i = 0; i < kTxMessages; ++i) {
+    const dbc::MessageInfo* info = bus.Find(std::string(kNames[i]));
+    if (info == nullptr) {
+      throw std::runtime_error(std::string("the DBC lacks the message ") + kNames[i]);
+    }
+    ids_[i] = info->id;
+  }
+}
+
+bool CommandGate::Encode(const control::LimitedCommand& command, const Answer& answer,
+                         std::span<can::Frame, 2> out) {
+  const bool enable = Commands(answer.mode);
+  const auto age = std::min<std::uint8_t>(answer.plan_age, 63);
+  return Encode(kSteering,
+                dbc::SteeringCommand{.enable = enable,
+                                     .mode = answer.mode,
+                                     .state_counter = answer.state_counter,
+                                     .plan_age = age,
+                                     .delta = command.steering()},
+                out[0]) &&
+         Encode(kAcceleration,
+                dbc::AccelerationCommand{.enable = enable,
+                                         .mode = answer.mode,
+                                         .state_counter = answer.state_counter,
+                                         .plan_age = age,
+                                         .acceleration = command.acceleration()},
+                out[1]);
+}
+
+bool CommandGate::Encode(const dbc::ControllerStatus& status, can::Frame& out) {
+  return Encode(kStatus, status, out);
+}
+
+bool CommandGate::Encode(const dbc::SchedulingHealth& health, can::Frame& out) {
+  return Encode(kHealth, health, out);
+}
+
+bool CommandGate::Encode(const dbc::HorizonHeader& header, can::Frame& out) {
+  return Encode(kHorizon, header, out);
+}
+
+bool CommandGate::Encode(const dbc::HorizonPoint& point, can::Frame& out) {
+  return Encode(kHorizon, point, out);
+}
+
+bool CommandGate::MaySend(const can::Frame& frame) const {
+  return frame.kind == can::FrameKind::kData && !frame.extended && !frame.fd &&
+         std::ranges::find(ids_, frame.id) != ids_.end();
+}
+
+bool CommandGate::Encode(Tx tx, const dbc::Message& message, can::Frame& out) {
+  dbc::RawMessage raw;
+  if (bus_->Encode(message, counters_[tx], raw) == dbc::EncodeStatus::kNotFinite) {
+    return false;
+  }
+  counters_[tx] = dbc::NextCounter(counters_[tx]);
+  out = can::Frame{.id = raw.id, .length = raw.length};
+  std::ranges::copy(raw.Payload(), out.data.begin());
+  return true;
+}
+
+}  // namespace lpvmpcd

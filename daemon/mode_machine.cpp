@@ -1,0 +1,176 @@
+#include "daemon/mode_machine.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace lpvmpcd {
+namespace {
+
+// What ends Active with a stop, the gravest first.
+std::optional<Cause> StopCause(const ModeInputs& inputs) {
+  if (!inputs.bus_up) return Cause::kBusDown;
+  if (!inputs.state_fresh) return inputs.state_rejected ? Cause::kStateInvalid : Cause::kStateStale;
+  if (!inputs.obstacles_fresh) return Cause::kObstaclesStale;
+  if (!inputs.request_fresh) return Cause::kDriverRequestStale;
+  if (inputs.route_end) return Cause::kRouteEnd;
+  if (!inputs.plan_usable) return Cause::kPlanExhausted;
+  return std::nullopt;
+}
+
+int CountHealthy(const ModeState& state, const ModeInputs& inputs) {
+  return inputs.Healthy() ? std::min(state.healthy_cycles + 1, kHealthyCycles) : 0;
+}
+
+}  // namespace
+
+ModeState Next(const ModeState& state, const ModeInputs& inputs) {
+  ModeState next = state;
+  next.healthy_cycles = CountHealthy(state, inputs);
+  const bool withdrawn = inputs.request_fresh && (inputs.released || !inputs.engage);
+  const auto enter = [&next](Mode mode, Cause cause) {
+    next.mode = mode;
+    next.cause = cause;
+    next.armed = false;
+  };
+
+  if (inputs.internal_error) {
+    if (state.mode != Mode::kFault) {
+      enter(Mode::kFault, Cause::kInternalError);
+    }
+    return next;
+  }
+  switch (state.mode) {
+    case Mode::kInit:
+      if (next.healthy_cycles == kHealthyCycles) {
+        enter(Mode::kStandby, Cause::kInputsHealthy);
+      }
+      break;
+    case Mode::kStandby:
+      if (EngagementRequested(state, inputs) && inputs.plan_usable) {
+        enter(Mode::kActive, Cause::kEngaged);
+      } else {
+        const bool edge_waits = !inputs.state_new && RisingEdge(state, inputs);
+        next.armed = inputs.request_fresh && (!inputs.engage || edge_waits);
+      }
+      break;
+    case Mode::kActive:
+    case Mode::kDegraded:
+      if (inputs.override_seen) {
+        enter(Mode::kStandby, Cause::kOverride);
+      } else if (withdrawn) {
+        enter(Mode::kStandby, Cause::kReleased);
+      } else if (const auto cause = StopCause(inputs)) {
+        enter(Mode::kSafeStop, *cause);
+      }
+      break;
+    case Mode::kSafeStop:
+      if (inputs.override_seen) {
+        enter(Mode::kStandby, Cause::kOverride);
+      } else if (inputs.standstill) {
+        enter(Mode::kStandby, Cause::kStandstill);
+      }
+      break;
+    case Mode::kFault:
+      if (inputs.Healthy() && !inputs.engage) {
+        enter(Mode::kStandby, Cause::kRecovered);
+      }
+      break;
+  }
+  return next;
+}
+
+bool RisingEdge(const ModeState& state, const ModeInputs& inputs) {
+  return inputs.engage && (state.armed || inputs.released);
+}
+
+bool EngagementRequested(const ModeState& state, const ModeInputs& inputs) {
+  return state.mode == Mode::kStandby && RisingEdge(state, inputs) && inputs.state_new &&
+         CountHealthy(state, inputs) == kHealthyCycles && inputs.near_route && !inputs.route_end &&
+         !inputs.override_seen;
+}
+
+dbc::FaultCode FaultOf(Cause cause) {
+  switch (cause) {
+    case Cause::kBusDown:
+      return dbc::FaultCode::kBusDown;
+    case Cause::kStateStale:
+      return dbc::FaultCode::kStateStale;
+    case Cause::kStateInvalid:
+      return dbc::FaultCode::kStateInvalid;
+    case Cause::kObstaclesStale:
+      return dbc::FaultCode::kObstaclesStale;
+    case Cause::kDriverRequestStale:
+      return dbc::FaultCode::kDriverRequestStale;
+    case Cause::kRouteEnd:
+      return dbc::FaultCode::kRouteEnd;
+    case Cause::kPlanExhausted:
+      return dbc::FaultCode::kPlanExhausted;
+    case Cause::kInternalError:
+      return dbc::FaultCode::kInternalError;
+    case Cause::kStart:
+    case Cause::kInputsHealthy:
+    case Cause::kEngaged:
+    case Cause::kReleased:
+    case Cause::kOverride:
+    case Cause::kStandstill:
+    case Cause::kRecovered:
+      break;
+  }
+  return dbc::FaultCode::kNone;
+}
+
+std::string_view Name(Cause cause) {
+  switch (cause) {
+    case Cause::kStart:
+      return "start";
+    case Cause::kInputsHealthy:
+      return "inputs healthy";
+    case Cause::kEngaged:
+      return "engaged";
+    case Cause::kReleased:
+      return "request withdrawn";
+    case Cause::kOverride:
+      return "driver override";
+    case Cause::kStandstill:
+      return "standstill";
+    case Cause::kRecovered:
+      return "recovered";
+    case Cause::kBusDown:
+      return "bus down";
+    case Cause::kStateStale:
+      return "vehicle state stale";
+    case Cause::kStateInvalid:
+      return "vehicle state refused";
+    case Cause::kObstaclesStale:
+      return "obstacles stale";
+    case Cause::kDriverRequestStale:
+      return "driver request stale";
+    case Cause::kRouteEnd:
+      return "end of route";
+    case Cause::kPlanExhausted:
+      return "plan exhausted";
+    case Cause::kInternalError:
+      return "internal error";
+  }
+  return "?";
+}
+
+std::string_view Name(Mode mode) {
+  switch (mode) {
+    case Mode::kInit:
+      return "Init";
+    case Mode::kStandby:
+      return "Standby";
+    case Mode::kActive:
+      return "Active";
+    case Mode::kDegraded:
+      return "Degraded";
+    case Mode::kSafeStop:
+      return "SafeStop";
+    case Mode::kFault:
+      return "Fault";
+  }
+  return "?";
+}
+
+}  // namespace lpvmpcd

@@ -1,0 +1,91 @@
+// Who drives: a pure function of the mode before and of what is known in this cycle. One step a cycle; cycles
+// are counted and no time is read, so that a run is repeatable to the bit.
+//
+//   Init ──► Standby ──► Active ──► SafeStop ──► Standby           Fault from anywhere, back to Standby
+//              ▲           │
+//              └───────────┘  override, request withdrawn
+//
+// Engagement needs a rising edge of the driver's request, seen in Standby, while all inputs are healthy, the
+// vehicle stands near the route, nobody overrides and a first plan exists. An edge that comes while one of
+// these is missing is spent: the driver has to ask again. (An edge in a cycle without a new state waits for
+// the next state.) Mode Degraded exists on the bus; this version does not enter it.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "dbc/messages.hpp"
+
+namespace lpvmpcd {
+
+using dbc::Mode;
+
+// Consecutive healthy cycles before Init is left and before engagement.
+inline constexpr int kHealthyCycles = 3;
+
+struct ModeInputs {
+  bool bus_up = false;
+  bool state_new = false;  // a state set was completed for this cycle
+  bool state_fresh = false;
+  bool state_rejected = false;  // of a state that is not fresh: its frames come, but are refused
+  bool obstacles_fresh = false;
+  bool request_fresh = false;
+  bool engage = false;         // as last requested
+  bool released = false;       // engage was seen false since the cycle before
+  bool override_seen = false;  // brake or steering override since the cycle before
+  bool near_route = false;     // on the road, along it, fast enough
+  bool plan_usable = false;    // a command can be taken from a plan that is not exhausted
+  bool route_end = false;      // less than a horizon of the route is left
+  bool standstill = false;     // a fresh state says so
+  bool internal_error = false;
+
+  [[nodiscard]] bool Healthy() const {
+    return bus_up && state_fresh && obstacles_fresh && request_fresh && !internal_error;
+  }
+};
+
+// Why the present mode was entered.
+enum class Cause : std::uint8_t {
+  kStart,
+  kInputsHealthy,
+  kEngaged,
+  kReleased,
+  kOverride,
+  kStandstill,
+  kRecovered,
+  kBusDown,
+  kStateStale,
+  kStateInvalid,
+  kObstaclesStale,
+  kDriverRequestStale,
+  kRouteEnd,
+  kPlanExhausted,
+  kInternalError,
+};
+[[nodiscard]] std::string_view Name(Cause cause);
+[[nodiscard]] std::string_view Name(Mode mode);
+// kNone for a cause that is an event and no fault.
+[[nodiscard]] dbc::FaultCode FaultOf(Cause cause);
+
+struct ModeState {
+  Mode mode = Mode::kInit;
+  Cause cause = Cause::kStart;
+  int healthy_cycles = 0;  // in a row, up to kHealthyCycles
+  bool armed = false;      // in Standby: engage was seen false, so its next true is a rising edge
+};
+
+[[nodiscard]] ModeState Next(const ModeState& state, const ModeInputs& inputs);
+
+// In Standby: the driver's request went from false to true.
+[[nodiscard]] bool RisingEdge(const ModeState& state, const ModeInputs& inputs);
+
+// True if Next would engage, given a plan: the cycle then has to make one. Its answer does not depend on
+// `inputs.plan_usable`.
+[[nodiscard]] bool EngagementRequested(const ModeState& state, const ModeInputs& inputs);
+
+// True in the modes whose commands the vehicle is to obey.
+[[nodiscard]] constexpr bool Commands(Mode mode) {
+  return mode == Mode::kActive || mode == Mode::kSafeStop;
+}
+
+}  // namespace lpvmpcd

@@ -1,0 +1,11 @@
+// Counts what the program takes from the heap.
+#pragma once
+
+#include <cstddef>
+
+namespace lpvmpcd {
+
+// Calls of operator new since the program began.
+[[nodiscard]] std::size_t Allocations();
+
+}  // namespace lpvmpcd

@@ -1,0 +1,500 @@
+#include "daemon/control_loop.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "tests/daemon/allocations.hpp"
+#include "tests/daemon/bus_frames.hpp"
+
+namespace lpvmpcd {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Answers as it is told to. Its plan's inputs are recognisable: δ_i = 0.01 (i + 1), a_i = −0.1 (i + 1).
+class FakeController : public control::Controller {
+ public:
+  static constexpr int kHorizon = 4;
+  FakeController() {
+    plan_.z.resize(kHorizon + 1, control::State::Zero());
+    for (int i = 0; i < kHorizon; ++i) {
+      plan_.u.emplace_back(0.01 * (i + 1), -0.1 * (i + 1));
+    }
+  }
+  int horizon() const override { return kHorizon; }
+  const control::Plan& Step(const control::ControllerInput& input) override {
+    ++steps;
+    z = input.z;
+    u_previous = input.u_previous;
+    obstacles = input.obstacles.size();
+    first_reference = input.reference.front();
+    reference_size = input.reference.size();
+    plan_.status = status;
+    plan_.iterations = 7;
+    plan_.z[2][control::kX] = poison ? std::numeric_limits<double>::quiet_NaN() : 12.5;
+    return plan_;
+  }
+  void Reset() override { ++resets; }
+
+  control::SolverStatus status = control::SolverStatus::kSolved;
+  bool poison = false;
+  int steps = 0;
+  int resets = 0;
+  control::State z;
+  control::Input u_previous;
+  std::size_t obstacles = 0;
+  control::State first_reference;
+  std::size_t reference_size = 0;
+
+ private:
+  control::Plan plan_;
+};
+
+std::vector<Eigen::Vector2d> StraightRoute() {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 200; ++i) {
+    points.emplace_back(0.5 * i, 0.0);  // 10 m/s
+  }
+  return points;
+}
+
+class ControlLoopTest : public testing::Test {
+ protected:
+  struct Sent {
+    dbc::SteeringCommand steering;
+    dbc::AccelerationCommand acceleration;
+    dbc::ControllerStatus status;
+    std::size_t frames = 0;
+  };
+
+  template <typename T>
+  T Decode(const can::Frame& frame) const {
+    EXPECT_EQ(bus_.Check(frame.id, frame.Payload()).verdict, dbc::E2eVerdict::kOk);
+    return std::get<T>(*bus_.Decode(frame.id, frame.Payload()));
+  }
+  // Reads what a cycle sent, and holds what holds in every cycle.
+  Sent Read(std::span<const can::Frame> frames) const {
+    Sent sent;
+    sent.frames = frames.size();
+    EXPECT_GE(frames.size(), 4U);
+    sent.steering = Decode<dbc::SteeringCommand>(frames[0]);
+    sent.acceleration = Decode<dbc::AccelerationCommand>(frames[1]);
+    sent.status = Decode<dbc::ControllerStatus>(frames[2]);
+    const bool enabled = sent.steering.mode == Mode::kActive || sent.steering.mode == Mode::kSafeStop;
+    EXPECT_EQ(sent.steering.enable, enabled);
+    EXPECT_EQ(sent.acceleration.enable, enabled);
+    EXPECT_EQ(sent.acceleration.mode, sent.steering.mode);
+    EXPECT_EQ(sent.status.mode, sent.steering.mode);
+    EXPECT_EQ(sent.acceleration.state_counter, sent.steering.state_counter);
+    EXPECT_EQ(sent.acceleration.plan_age, sent.steering.plan_age);
+    return sent;
+  }
+  // Gives frames to the loop; the cycle that they ask for.
+  Sent Give(const std::vector<can::Frame>& frames) {
+    Sent sent;
+    for (const can::Frame& frame : frames) {
+      if (loop_.Receive(frame, now_)) {
+        sent = Read(loop_.Cycle(now_, Trigger::kState));
+      }
+    }
+    return sent;
+  }
+  // One period with everything in it.
+  Sent Period() {
+    Advance();
+    return Give(vehicle_.All());
+  }
+  // One period in which the state stays away.
+  Sent TimerPeriod() {
+    Advance();
+    vehicle_.SkipState();
+    EXPECT_EQ(Give(vehicle_.Request()).frames, 0U);
+    EXPECT_EQ(Give(vehicle_.Obstacles()).frames, 0U);
+    return Read(loop_.Cycle(now_, Trigger::kTimer));
+  }
+  void Advance() {
+    now_ += 50ms;
+    vehicle_.pose.X += 0.5;
+  }
+  Sent Engage() {
+    for (int i = 0; i < 5; ++i) {
+      Period();
+    }
+    EXPECT_EQ(loop_.report().mode, Mode::kStandby);
+    vehicle_.request.engage = true;
+    return Period();
+  }
+
+  dbc::VehicleBus bus_;
+  FakeController controller_;
+  control::Reference reference_{StraightRoute(), 0.05};
+  Time stopwatch_step_ = 0ms;  // by which the stopwatch goes on each time it is read
+  Time stopwatch_{};
+  ControlLoop loop_{{}, bus_, controller_, reference_, {}, [this] { return stopwatch_ += stopwatch_step_; }};
+  FakeVehicle vehicle_{bus_};
+  Time now_ = 10s;
+};
+
+TEST_F(ControlLoopTest, ComesUpInInitAndCommandsNothingBeforeTheDriverAsks) {
+  EXPECT_EQ(Period().steering.mode, Mode::kInit);
+  EXPECT_EQ(Period().steering.mode, Mode::kInit);
+  for (int i = 0; i < 10; ++i) {
+    const Sent sent = Period();
+    EXPECT_EQ(sent.steering.mode, Mode::kStandby);
+    EXPECT_EQ(sent.steering.plan_age, 63);
+    EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kNone);
+    EXPECT_EQ(sent.status.solver_status, dbc::SolverStatus::kNone);
+  }
+  EXPECT_EQ(controller_.steps, 0);
+}
+
+TEST_F(ControlLoopTest, RequestHeldFromTheFirstFrameOnDoesNotEngage) {
+  vehicle_.request.engage = true;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(Period().steering.enable);
+  }
+}
+
+TEST_F(ControlLoopTest, EngagedItSendsTheFirstInputOfANewPlanAndItsHorizon) {
+  vehicle_.feedback = {.psi = 0.0, .delta = 0.02, .acceleration = -0.25};
+  vehicle_.obstacles = {{.object_id = 3, .X = 60.0, .Y = 1.0}};
+  const Sent sent = Engage();
+  EXPECT_EQ(sent.steering.mode, Mode::kActive);
+  EXPECT_EQ(sent.steering.plan_age, 0);
+  EXPECT_NEAR(sent.steering.delta, 0.01, 1e-6);
+  EXPECT_NEAR(sent.acceleration.acceleration, -0.1, 1e-4);
+  EXPECT_EQ(sent.status.solver_status, dbc::SolverStatus::kSolved);
+  EXPECT_EQ(sent.status.iterations, 7);
+  EXPECT_EQ(sent.frames, 4U + 1U + FakeController::kHorizon + 1U);
+
+  // What the controller was given.
+  EXPECT_EQ(controller_.resets, 1);
+  EXPECT_EQ(controller_.obstacles, 1U);
+  EXPECT_EQ(controller_.reference_size, FakeController::kHorizon + 1U);
+  EXPECT_NEAR(controller_.first_reference[control::kX], vehicle_.pose.X, 1e-3);
+  EXPECT_NEAR(controller_.z[control::kX], vehicle_.pose.X, 1e-3);
+  EXPECT_NEAR(controller_.u_previous[control::kDelta], 0.02, 1e-4);
+  EXPECT_NEAR(controller_.u_previous[control::kAcceleration], -0.25, 1e-3);
+
+  Period();
+  EXPECT_EQ(controller_.resets, 1);
+  EXPECT_NEAR(controller_.u_previous[control::kDelta], 0.01, 1e-12);  // the command that was passed
+}
+
+TEST_F(ControlLoopTest, HorizonFramesCarryThePlan) {
+  Engage();
+  vehicle_.pose.X += 0.5;
+  now_ += 50ms;
+  for (const can::Frame& frame : vehicle_.All()) {
+    if (!loop_.Receive(frame, now_)) continue;
+    const auto frames = loop_.Cycle(now_, Trigger::kState);
+    const auto header = Decode<dbc::HorizonHeader>(frames[4]);
+    EXPECT_EQ(header.points, FakeController::kHorizon + 1);
+    EXPECT_EQ(header.state_counter, vehicle_.last_state_counter());
+    EXPECT_NEAR(header.step, 0.05, 1e-9);
+    const auto point = Decode<dbc::HorizonPoint>(frames[4 + 1 + 2]);
+    EXPECT_EQ(point.index, 2);
+    EXPECT_NEAR(point.X, 12.5, 1e-3);
+  }
+}
+
+TEST_F(ControlLoopTest, EveryCommandAnswersTheCounterOfItsState) {
+  Engage();
+  for (int i = 0; i < 40; ++i) {
+    const Sent sent = Period();
+    EXPECT_EQ(sent.steering.state_counter, vehicle_.last_state_counter());
+  }
+  EXPECT_EQ(TimerPeriod().steering.state_counter, 15);
+}
+
+TEST_F(ControlLoopTest, NotEngagedTheCommandsFollowTheVehicle) {
+  vehicle_.feedback = {.psi = 0.0, .delta = 0.2, .acceleration = -1.5};
+  const Sent sent = Period();
+  EXPECT_FALSE(sent.steering.enable);
+  EXPECT_NEAR(sent.steering.delta, 0.2, 1e-5);
+  EXPECT_NEAR(sent.acceleration.acceleration, -1.5, 1e-3);
+}
+
+TEST_F(ControlLoopTest, ReferenceAdvancesByTheCounterOfTheStates) {
+  Engage();
+  const int k = loop_.report().route_index;
+  Period();
+  EXPECT_EQ(loop_.report().route_index, k + 1);
+  Advance();
+  vehicle_.SkipState();  // lost, and the timer did not notice
+  Period();
+  EXPECT_EQ(loop_.report().route_index, k + 3);
+  TimerPeriod();
+  EXPECT_EQ(loop_.report().route_index, k + 4);
+  Period();
+  EXPECT_EQ(loop_.report().route_index, k + 5);
+  // The timer went off, and then the state came after all.
+  Advance();
+  Read(loop_.Cycle(now_, Trigger::kTimer));
+  EXPECT_EQ(loop_.report().route_index, k + 6);
+  Give(vehicle_.All());
+  EXPECT_EQ(loop_.report().route_index, k + 6);
+  EXPECT_NEAR(controller_.first_reference[control::kX], vehicle_.pose.X, 1e-3);
+}
+
+TEST_F(ControlLoopTest, HeadingIsGivenUnwrappedToTheReference) {
+  std::vector<Eigen::Vector2d> west;
+  for (int i = 0; i < 200; ++i) {
+    west.emplace_back(-0.5 * i, 0.0);
+  }
+  const control::Reference reference(west, 0.05);
+  ControlLoop loop({}, bus_, controller_, reference, {}, [] { return Time{}; });
+  vehicle_.feedback.psi = -3.1;
+  for (int i = 0; i < 8; ++i) {
+    vehicle_.request.engage = i > 4;
+    vehicle_.pose.X -= 0.5;
+    now_ += 50ms;
+    for (const can::Frame& frame : vehicle_.All()) {
+      if (loop.Receive(frame, now_)) static_cast<void>(loop.Cycle(now_, Trigger::kState));
+    }
+  }
+  ASSERT_GT(controller_.steps, 0);
+  EXPECT_LT(std::abs(controller_.z[control::kPsi] - controller_.first_reference[control::kPsi]), 0.1);
+}
+
+TEST_F(ControlLoopTest, OverrideWinsWithinOneCycle) {
+  Engage();
+  vehicle_.request.brake = true;
+  const Sent sent = Period();
+  EXPECT_EQ(sent.steering.mode, Mode::kStandby);
+  EXPECT_EQ(loop_.report().cause, Cause::kOverride);
+  vehicle_.request.brake = false;
+  EXPECT_FALSE(Period().steering.enable);  // asks for a new edge
+  vehicle_.request.engage = false;
+  Period();
+  vehicle_.request.engage = true;
+  EXPECT_TRUE(Period().steering.enable);
+}
+
+TEST_F(ControlLoopTest, TouchOfTheBrakeBetweenTwoCyclesIsNotLost) {
+  Engage();
+  vehicle_.request.steering_override = true;
+  Give(vehicle_.Request());
+  vehicle_.request.steering_override = false;
+  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+}
+
+TEST_F(ControlLoopTest, WithdrawnRequestEndsActive) {
+  Engage();
+  vehicle_.request.engage = false;
+  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+  EXPECT_EQ(loop_.report().cause, Cause::kReleased);
+}
+
+TEST_F(ControlLoopTest, FailedSolveIsAnsweredFromTheLastPlanAndThenByAStop) {
+  Engage();
+  controller_.status = control::SolverStatus::kInfeasible;
+  for (int age = 1; age < FakeController::kHorizon; ++age) {
+    const Sent sent = Period();
+    EXPECT_EQ(sent.steering.mode, Mode::kActive);
+    EXPECT_EQ(sent.steering.plan_age, age);
+    EXPECT_NEAR(sent.steering.delta, 0.01 * (age + 1), 1e-6);
+    EXPECT_NEAR(sent.acceleration.acceleration, -0.1 * (age + 1), 1e-4);
+    EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverInfeasible);
+    EXPECT_EQ(sent.status.solver_status, dbc::SolverStatus::kInfeasible);
+    EXPECT_EQ(sent.frames, 4U);  // no horizon
+  }
+  double a = -0.1 * FakeController::kHorizon;
+  for (int i = 0; i < 5; ++i) {
+    const Sent sent = Period();
+    EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+    EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kPlanExhausted);
+    EXPECT_NEAR(sent.steering.delta, 0.01 * FakeController::kHorizon, 1e-6);  // held
+    a = std::max(-3.0, a - 1.5);                                              // no jump
+    EXPECT_NEAR(sent.acceleration.acceleration, a, 1e-4);
+  }
+}
+
+TEST_F(ControlLoopTest, GoodSolveAfterFailedOnesGoesOn) {
+  Engage();
+  controller_.status = control::SolverStatus::kIterationLimit;
+  EXPECT_EQ(Period().status.fault_code, dbc::FaultCode::kSolverIterationLimit);
+  controller_.status = control::SolverStatus::kNumericalFailure;
+  EXPECT_EQ(Period().status.fault_code, dbc::FaultCode::kSolverNumericalFailure);
+  controller_.status = control::SolverStatus::kSolved;
+  const Sent sent = Period();
+  EXPECT_EQ(sent.steering.plan_age, 0);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kNone);
+}
+
+TEST_F(ControlLoopTest, PlanWithANanIsRefused) {
+  Engage();
+  controller_.poison = true;
+  const Sent sent = Period();
+  EXPECT_EQ(sent.steering.plan_age, 1);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverNumericalFailure);
+  EXPECT_EQ(loop_.report().solver_failures, 1U);
+}
+
+TEST_F(ControlLoopTest, WithoutAFirstPlanItDoesNotEngage) {
+  controller_.status = control::SolverStatus::kInfeasible;
+  const Sent sent = Engage();
+  EXPECT_EQ(sent.steering.mode, Mode::kStandby);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverInfeasible);
+  EXPECT_TRUE(loop_.report().engagement_refused);
+}
+
+TEST_F(ControlLoopTest, MissingStateIsBridgedByThePlanAndThenStopsTheVehicle) {
+  Engage();
+  for (int age = 1; age <= 3; ++age) {
+    const Sent sent = TimerPeriod();
+    EXPECT_EQ(sent.steering.mode, Mode::kActive);
+    EXPECT_EQ(sent.steering.plan_age, age);
+    EXPECT_NEAR(sent.steering.delta, 0.01 * (age + 1), 1e-6);
+  }
+  Sent sent = TimerPeriod();  // the state is older than three periods now
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kStateStale);
+  for (int i = 0; i < 100; ++i) {
+    sent = TimerPeriod();
+    EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);  // brakes as long as nobody says that it stands
+    EXPECT_NEAR(sent.acceleration.acceleration, -3.0, i == 0 ? 1.5 : 1e-4);
+  }
+}
+
+TEST_F(ControlLoopTest, CorruptedStateStopsTheVehicleAndIsNamed) {
+  Engage();
+  Sent sent;
+  for (int i = 0; i < 4; ++i) {
+    Advance();
+    Give(vehicle_.Request());
+    Give(vehicle_.Obstacles());
+    auto frames = vehicle_.State();
+    frames[1].data[4] ^= std::byte{1};
+    EXPECT_EQ(Give(frames).frames, 0U);
+    sent = Read(loop_.Cycle(now_, Trigger::kTimer));
+  }
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kStateInvalid);
+}
+
+TEST_F(ControlLoopTest, StaleObstaclesAndStaleRequestStopTheVehicle) {
+  Engage();
+  Sent sent;
+  for (int i = 0; i < 4; ++i) {
+    Advance();
+    Give(vehicle_.Request());
+    sent = Give(vehicle_.State());
+  }
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kObstaclesStale);
+}
+
+TEST_F(ControlLoopTest, StaleRequestStopsTheVehicle) {
+  Engage();
+  Sent sent;
+  for (int i = 0; i < 4; ++i) {
+    Advance();
+    Give(vehicle_.Obstacles());
+    sent = Give(vehicle_.State());
+  }
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kDriverRequestStale);
+}
+
+TEST_F(ControlLoopTest, SafeStopFollowsTheRestOfThePlanAndEndsAtStandstill) {
+  Engage();
+  loop_.SetBusUp(false);
+  Sent sent = Period();
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kBusDown);
+  loop_.SetBusUp(true);
+  sent = Period();
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_NEAR(sent.steering.delta, 0.02, 1e-6);  // u_1 of the plan made one cycle before
+  vehicle_.motion.upsilon = 0.1;
+  sent = Period();
+  EXPECT_EQ(sent.steering.mode, Mode::kStandby);
+  EXPECT_EQ(loop_.report().cause, Cause::kStandstill);
+}
+
+TEST_F(ControlLoopTest, EndOfTheRouteStopsTheVehicle) {
+  Engage();
+  for (int i = 0; i < 300 && loop_.report().mode == Mode::kActive; ++i) {
+    Period();
+  }
+  EXPECT_EQ(loop_.report().mode, Mode::kSafeStop);
+  EXPECT_EQ(loop_.report().cause, Cause::kRouteEnd);
+  EXPECT_EQ(loop_.report().route_index + FakeController::kHorizon, reference_.size());
+}
+
+TEST_F(ControlLoopTest, AwayFromTheRouteItDoesNotEngageAndSaysSo) {
+  vehicle_.pose.Y = 50.0;
+  const Sent sent = Engage();
+  EXPECT_EQ(sent.steering.mode, Mode::kStandby);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kOffRoute);
+  EXPECT_EQ(controller_.steps, 0);
+}
+
+TEST_F(ControlLoopTest, TooSlowItDoesNotEngage) {
+  vehicle_.motion.upsilon = 1.0;
+  EXPECT_EQ(Engage().steering.mode, Mode::kStandby);
+}
+
+TEST_F(ControlLoopTest, LastWordsAreNotEnabledAndNoJump) {
+  Engage();
+  vehicle_.feedback.delta = 0.04;
+  Period();
+  const auto frames = loop_.Disable();
+  ASSERT_EQ(frames.size(), 2U);
+  const auto steering = Decode<dbc::SteeringCommand>(frames[0]);
+  EXPECT_FALSE(steering.enable);
+  EXPECT_EQ(steering.mode, Mode::kStandby);
+  EXPECT_NEAR(steering.delta, 0.04, 1e-5);
+  EXPECT_FALSE(Decode<dbc::AccelerationCommand>(frames[1]).enable);
+}
+
+TEST_F(ControlLoopTest, BeforeAnyStateTheTimerSendsNothingEnabled) {
+  for (int i = 0; i < 5; ++i) {
+    now_ += 50ms;
+    const Sent sent = Read(loop_.Cycle(now_, Trigger::kTimer));
+    EXPECT_EQ(sent.steering.mode, Mode::kInit);
+    EXPECT_EQ(sent.steering.state_counter, 15);
+    EXPECT_EQ(sent.steering.delta, 0.0);
+    EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kStateStale);
+  }
+}
+
+TEST_F(ControlLoopTest, CycleThatEndsLaterThanAPeriodAfterItsStateIsADeadlineMiss) {
+  Engage();
+  stopwatch_step_ = 51ms;
+  EXPECT_EQ(Period().status.deadline_misses, 1);
+  stopwatch_step_ = 30ms;
+  Sent sent = Period();
+  EXPECT_EQ(sent.status.deadline_misses, 1);
+  EXPECT_NEAR(sent.status.solve_time, 0.03, 1e-6);
+  // The state waited before it was looked at.
+  Advance();
+  for (const can::Frame& frame : vehicle_.All()) {
+    if (loop_.Receive(frame, now_)) sent = Read(loop_.Cycle(now_ + 30ms, Trigger::kState));
+  }
+  EXPECT_EQ(sent.status.deadline_misses, 2);
+}
+
+TEST_F(ControlLoopTest, NothingIsAllocatedInACycle) {
+  vehicle_.obstacles = {{.object_id = 1, .X = 40.0}, {.object_id = 2, .X = 50.0}};
+  Engage();
+  std::size_t allocations = 0;
+  for (int i = 0; i < 30; ++i) {
+    Advance();
+    controller_.status = i % 3 == 0 ? control::SolverStatus::kInfeasible : control::SolverStatus::kSolved;
+    const auto frames = vehicle_.All();
+    const std::size_t before = Allocations();
+    for (const can::Frame& frame : frames) {
+      if (loop_.Receive(frame, now_)) static_cast<void>(loop_.Cycle(now_, Trigger::kState));
+    }
+    static_cast<void>(loop_.Cycle(now_, Trigger::kTimer));
+    allocations += Allocations() - before;
+  }
+  EXPECT_EQ(loop_.report().mode, Mode::kActive);
+  EXPECT_EQ(allocations, 0U);
+}
+
+}  // namespace
+}  // namespace lpvmpcd
