@@ -41,6 +41,9 @@ struct Multiplexing {
   std::vector<RawRange> values;  // one value in simple multiplexing; none: the file names none, never present
 };
 
+// Longest message, of the J1939 transport protocol [bytes].
+inline constexpr unsigned kMaxMessageLength = 1785;
+
 // physical = raw * factor + offset
 struct Signal {
   std::string name;

@@ -39,16 +39,9 @@ class Lexer {
     } else if (c == '"') {
       token.kind = Token::Kind::kString;
       TakeString(token);
-    } else if (std::string_view(":;,|@+-()[]").find(c) != std::string_view::npos) {
+    } else {
       token.kind = Token::Kind::kPunctuation;
       token.text = Take();
-    } else {
-      char name[8];
-      std::snprintf(name, sizeof name, c > ' ' && c < 0x7F ? "'%c'" : "0x%02X",
-                    static_cast<unsigned char>(c));
-      throw DbcError(
-          source_name_, line_, column_,
-          std::string("found character ") + name + ", which no DBC statement holds outside a string");
     }
     return token;
   }
@@ -104,20 +97,22 @@ class Lexer {
 }  // namespace
 
 std::string Describe(const Token& token) {
-  // Only the beginning of a long string, and no line break: an error is one line.
-  std::string text = token.text.substr(0, 32);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  if (token.kind == Token::Kind::kEnd) return "the end of the file";
+  // An error is one line: only the beginning of a long text, and only what every terminal shows.
+  constexpr std::size_t kShown = 32;
+  std::string text;
+  for (const char c : token.text.substr(0, kShown)) {
+    if (c >= ' ' && c < 0x7F) {
+      text += c;
+    } else {
+      char escaped[5];
+      std::snprintf(escaped, sizeof escaped, "\\x%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      text += escaped;
+    }
   }
-  if (token.text.size() > text.size()) text += "...";
-  switch (token.kind) {
-    case Token::Kind::kString:
-      return "\"" + text + "\"";
-    case Token::Kind::kEnd:
-      return "the end of the file";
-    default:
-      return "'" + text + "'";
-  }
+  if (token.text.size() > kShown) text += "...";
+  const char quote = token.kind == Token::Kind::kString ? '"' : '\'';
+  return quote + text + quote;
 }
 
 std::vector<Token> Tokenize(std::string_view text, const std::string& source_name) {

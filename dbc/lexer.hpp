@@ -13,7 +13,7 @@ struct Token {
     kIdentifier,   // letters, digits, '_'; no digit first
     kNumber,       // without its sign
     kString,       // `text` is what stands between the quotes, `\"` already `"`
-    kPunctuation,  // one character
+    kPunctuation,  // any other character
     kEnd,
   };
   Kind kind = Kind::kEnd;

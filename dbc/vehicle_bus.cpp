@@ -69,13 +69,12 @@ const Signal& Require(const MessageDefinition& message, const char* signal) {
   return *found;
 }
 
-double RequireAttribute(const Database& database, const MessageDefinition& message, const char* name,
-                        double max) {
-  const AttributeValue* value = database.Attribute(message, name);
+double RequireNumber(const MessageDefinition& message, const char* attribute, const AttributeValue* value,
+                     double max) {
   const std::optional<double> number = value != nullptr ? Number(*value) : std::nullopt;
-  if (!number) throw std::runtime_error("message " + message.name + " has no attribute " + name);
+  if (!number) throw std::runtime_error("message " + message.name + " has no attribute " + attribute);
   if (!(*number >= 0.0 && *number <= max && *number == std::floor(*number))) {
-    throw std::runtime_error("attribute " + std::string(name) + " of message " + message.name +
+    throw std::runtime_error("attribute " + std::string(attribute) + " of message " + message.name +
                              " is no integer from 0 to " + std::to_string(static_cast<int>(max)));
   }
   return *number;
@@ -151,8 +150,12 @@ struct VehicleBus::Binding {
     bound.length = message.length;
     bound.crc = &Require(message, "CRC");
     bound.counter = &Require(message, "Counter");
-    bound.data_id = static_cast<std::uint16_t>(RequireAttribute(database, message, "E2EDataId", 65535.0));
-    const double period = RequireAttribute(database, message, "GenMsgCycleTime", 1e9);
+    // A default would be the same for all messages: the data id must be the message's own.
+    const auto data_id = message.attributes.find("E2EDataId");
+    bound.data_id = static_cast<std::uint16_t>(RequireNumber(
+        message, "E2EDataId", data_id != message.attributes.end() ? &data_id->second : nullptr, 65535.0));
+    const double period =
+        RequireNumber(message, "GenMsgCycleTime", database.Attribute(message, "GenMsgCycleTime"), 1e9);
     CheckProtection(message, bound);
     messages.push_back(bound);
     info.push_back({.id = message.id,
