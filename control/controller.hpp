@@ -17,10 +17,10 @@ enum class SolverStatus : std::uint8_t {
 };
 
 struct ControllerInput {
-  State z = State::Zero();                // measured; ψ unwrapped to within π of the reference's
-  Input u_previous = Input::Zero();       // input last applied, against which the rate limits' first step is taken
-  std::span<const State> reference;       // z_ref, steps 0..N: N + 1 states
-  RoadBounds road;                        // relative to the reference
+  State z = State::Zero();           // measured; ψ unwrapped to within π of the reference's
+  Input u_previous = Input::Zero();  // input last applied, against which the rate limits' first step is taken
+  std::span<const State> reference;  // z_ref, steps 0..N: N + 1 states
+  RoadBounds road;                   // relative to the reference
   std::span<const Obstacle> obstacles;
 };
 
@@ -28,8 +28,8 @@ struct ControllerInput {
 struct Plan {
   SolverStatus status = SolverStatus::kNumericalFailure;
   int iterations = 0;
-  std::vector<State> z;  // steps 0..N
-  std::vector<Input> u;  // steps 0..N-1; meaningful only if status == kSolved
+  std::vector<State> z;           // steps 0..N
+  std::vector<Input> u;           // steps 0..N-1; meaningful only if status == kSolved
   double scheduling_error = 0.0;  // max_j |p_j − p̂_j| / e_j, realised against predicted in the previous step
   int active_trust_rows = 0;      // trust-region constraints at their bound
   double largest_slack = 0.0;     // in trust-region radii
@@ -39,7 +39,8 @@ class Controller {
  public:
   virtual ~Controller() = default;
   [[nodiscard]] virtual int horizon() const = 0;  // N
-  // One control step. The plan belongs to the controller and stays until the next Step or Reset. Does not allocate.
+  // One control step. The plan belongs to the controller and stays until the next Step or Reset. Does not
+  // allocate.
   [[nodiscard]] virtual const Plan& Step(const ControllerInput& input) = 0;
   // Forgets the last plan: the next step schedules from the measured state alone.
   virtual void Reset() = 0;

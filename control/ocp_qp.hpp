@@ -1,0 +1,113 @@
+// The optimal-control quadratic program that every controller here solves:
+//
+//   min   Σ_{i=0..N} ½ xᵢᵀ diag(Q_i) xᵢ + q_iᵀ xᵢ  +  Σ_{i=0..N-1} ½ uᵢᵀ diag(R_i) uᵢ + r_iᵀ uᵢ  +  Σ_soft ½
+//   ρ ε² s.t.  x_0 given,   x_{i+1} = A_i xᵢ + B_i uᵢ + c_i
+//         lo − ε ≤ C xᵢ + D uᵢ ≤ hi + ε     for every row of stage i; ε = 0 where the row is hard
+//
+// A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 it is convex.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace control {
+
+inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
+inline constexpr int kMaxRows = 24;  // rows a stage can hold
+
+template <int kNx, int kNu>
+struct OcpQpRow {
+  static constexpr int kGeneral = -1;
+
+  Eigen::Matrix<double, kNx, 1> C = Eigen::Matrix<double, kNx, 1>::Zero();
+  Eigen::Matrix<double, kNu, 1> D = Eigen::Matrix<double, kNu, 1>::Zero();
+  double lo = -kNoBound;
+  double hi = kNoBound;
+  double rho = -1.0;    // weight of the slack; negative: hard row
+  int unit = kGeneral;  // index in [x; u] if the row bounds that variable alone, with coefficient 1
+
+  [[nodiscard]] bool soft() const { return rho >= 0.0; }
+  [[nodiscard]] bool has_lo() const { return lo > -kNoBound; }
+  [[nodiscard]] bool has_hi() const { return hi < kNoBound; }
+};
+
+template <int kNx, int kNu>
+struct OcpQpStage {
+  using Row = OcpQpRow<kNx, kNu>;
+
+  Eigen::Matrix<double, kNx, kNx> A = Eigen::Matrix<double, kNx, kNx>::Zero();
+  Eigen::Matrix<double, kNx, kNu> B = Eigen::Matrix<double, kNx, kNu>::Zero();
+  Eigen::Matrix<double, kNx, 1> c = Eigen::Matrix<double, kNx, 1>::Zero();
+  Eigen::Matrix<double, kNx, 1> Q = Eigen::Matrix<double, kNx, 1>::Zero();
+  Eigen::Matrix<double, kNx, 1> q = Eigen::Matrix<double, kNx, 1>::Zero();
+  Eigen::Matrix<double, kNu, 1> R = Eigen::Matrix<double, kNu, 1>::Zero();
+  Eigen::Matrix<double, kNu, 1> r = Eigen::Matrix<double, kNu, 1>::Zero();
+  std::array<Row, kMaxRows> rows;
+  int row_count = 0;
+
+  void ClearRows() { row_count = 0; }
+  // lo ≤ x[index] ≤ hi and lo ≤ u[index] ≤ hi. False, and nothing added, if the stage is full.
+  [[nodiscard]] bool AddStateBound(int index, double lo, double hi, double rho = -1.0);
+  [[nodiscard]] bool AddInputBound(int index, double lo, double hi, double rho = -1.0);
+  // lo ≤ C x + D u ≤ hi.
+  [[nodiscard]] bool AddRow(const Eigen::Matrix<double, kNx, 1>& C, const Eigen::Matrix<double, kNu, 1>& D,
+                            double lo, double hi, double rho = -1.0);
+};
+
+// Stages 0..N; everything is sized at construction.
+template <int kNx, int kNu>
+struct OcpQp {
+  explicit OcpQp(int horizon) : stages(static_cast<std::size_t>(horizon) + 1) {}
+  [[nodiscard]] int horizon() const { return static_cast<int>(stages.size()) - 1; }
+
+  Eigen::Matrix<double, kNx, 1> x0 = Eigen::Matrix<double, kNx, 1>::Zero();
+  std::vector<OcpQpStage<kNx, kNu>> stages;
+};
+
+// Multipliers of a row: λ_lo of C x + D u + ε ≥ lo, λ_hi of C x + D u − ε ≤ hi; both ≥ 0.
+struct RowMultiplier {
+  double lo = 0.0;
+  double hi = 0.0;
+};
+
+// A primal-dual point. π_i is the multiplier of the dynamics that give x_i (i ≥ 1); π_0 is unused.
+template <int kNx, int kNu>
+struct OcpQpPoint {
+  struct Stage {
+    Eigen::Matrix<double, kNx, 1> x = Eigen::Matrix<double, kNx, 1>::Zero();
+    Eigen::Matrix<double, kNu, 1> u = Eigen::Matrix<double, kNu, 1>::Zero();
+    Eigen::Matrix<double, kNx, 1> pi = Eigen::Matrix<double, kNx, 1>::Zero();
+    std::array<RowMultiplier, kMaxRows> lambda{};
+    std::array<double, kMaxRows> slack{};  // ε
+  };
+  explicit OcpQpPoint(int horizon) : stages(static_cast<std::size_t>(horizon) + 1) {}
+
+  std::vector<Stage> stages;
+};
+
+// The largest violation, in absolute terms, of each of the conditions of optimality (Karush, Kuhn, Tucker).
+struct KktResidual {
+  double stationarity = 0.0;     // gradient of the Lagrangian with respect to x, u and ε
+  double dynamics = 0.0;         // x_0 and x_{i+1} = A x + B u + c
+  double rows = 0.0;             // lo − ε ≤ C x + D u ≤ hi + ε
+  double multipliers = 0.0;      // λ ≥ 0
+  double complementarity = 0.0;  // λ times its row's distance to the bound
+
+  [[nodiscard]] double Max() const;
+};
+
+template <int kNx, int kNu>
+[[nodiscard]] KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point);
+
+template <int kNx, int kNu>
+[[nodiscard]] double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point);
+
+// True if the multipliers λ ≥ 0 of the hard rows prove that no input sequence satisfies them all (Farkas'
+// lemma): the λ-weighted sum of the rows, reduced to the inputs alone by the adjoint of the dynamics, is
+// negative for every input within its own hard bounds.
+template <int kNx, int kNu>
+[[nodiscard]] bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point);
+
+}  // namespace control

@@ -1,0 +1,170 @@
+// Definitions of ocp_qp.hpp's templates; include where they are instantiated.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/ocp_qp.hpp"
+
+namespace control {
+
+template <int kNx, int kNu>
+bool OcpQpStage<kNx, kNu>::AddStateBound(int index, double lo, double hi, double rho) {
+  if (row_count == kMaxRows) return false;
+  Row& row = rows[static_cast<std::size_t>(row_count++)];
+  row = Row{.lo = lo, .hi = hi, .rho = rho, .unit = index};
+  row.C[index] = 1.0;
+  return true;
+}
+
+template <int kNx, int kNu>
+bool OcpQpStage<kNx, kNu>::AddInputBound(int index, double lo, double hi, double rho) {
+  if (row_count == kMaxRows) return false;
+  Row& row = rows[static_cast<std::size_t>(row_count++)];
+  row = Row{.lo = lo, .hi = hi, .rho = rho, .unit = kNx + index};
+  row.D[index] = 1.0;
+  return true;
+}
+
+template <int kNx, int kNu>
+bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
+                                  const Eigen::Matrix<double, kNu, 1>& D, double lo, double hi, double rho) {
+  if (row_count == kMaxRows) return false;
+  Row& row = rows[static_cast<std::size_t>(row_count++)];
+  row = Row{.C = C, .D = D, .lo = lo, .hi = hi, .rho = rho};
+  int entries = 0;
+  for (int k = 0; k < kNx + kNu; ++k) {
+    const double entry = k < kNx ? C[k] : D[k - kNx];
+    if (entry != 0.0) row.unit = ++entries == 1 && entry == 1.0 ? k : Row::kGeneral;
+  }
+  return true;
+}
+
+inline double KktResidual::Max() const {
+  return std::max({stationarity, dynamics, rows, multipliers, complementarity});
+}
+
+template <int kNx, int kNu>
+KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
+  KktResidual residual;
+  const auto raise = [](double& largest, double value) {
+    if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
+  };
+  const int N = qp.horizon();
+  raise(residual.dynamics, (point.stages[0].x - qp.x0).cwiseAbs().maxCoeff());
+  for (int i = 0; i <= N; ++i) {
+    const auto& stage = qp.stages[static_cast<std::size_t>(i)];
+    const auto& at = point.stages[static_cast<std::size_t>(i)];
+    const bool terminal = i == N;
+    Eigen::Matrix<double, kNx, 1> gradient_x = stage.Q.cwiseProduct(at.x) + stage.q - at.pi;
+    Eigen::Matrix<double, kNu, 1> gradient_u = Eigen::Matrix<double, kNu, 1>::Zero();
+    if (!terminal) {
+      const auto& next = point.stages[static_cast<std::size_t>(i) + 1];
+      gradient_x += stage.A.transpose() * next.pi;
+      gradient_u = stage.R.cwiseProduct(at.u) + stage.r + stage.B.transpose() * next.pi;
+      raise(residual.dynamics, (stage.A * at.x + stage.B * at.u + stage.c - next.x).cwiseAbs().maxCoeff());
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      const RowMultiplier& lambda = at.lambda[j];
+      const double epsilon = row.soft() ? at.slack[j] : 0.0;
+      const double value = row.C.dot(at.x) + (terminal ? 0.0 : row.D.dot(at.u));
+      gradient_x -= row.C * (lambda.lo - lambda.hi);
+      gradient_u -= row.D * (lambda.lo - lambda.hi);
+      if (row.soft()) raise(residual.stationarity, row.rho * epsilon - lambda.lo - lambda.hi);
+      raise(residual.multipliers, std::min({0.0, lambda.lo, lambda.hi}));
+      if (row.has_lo()) {
+        const double distance = value + epsilon - row.lo;
+        raise(residual.rows, std::min(0.0, distance));
+        raise(residual.complementarity, lambda.lo * distance);
+      } else {
+        raise(residual.multipliers, lambda.lo);
+      }
+      if (row.has_hi()) {
+        const double distance = row.hi + epsilon - value;
+        raise(residual.rows, std::min(0.0, distance));
+        raise(residual.complementarity, lambda.hi * distance);
+      } else {
+        raise(residual.multipliers, lambda.hi);
+      }
+    }
+    // x_0 is given: its gradient is free.
+    if (i > 0) raise(residual.stationarity, gradient_x.cwiseAbs().maxCoeff());
+    if (!terminal) raise(residual.stationarity, gradient_u.cwiseAbs().maxCoeff());
+  }
+  return residual;
+}
+
+template <int kNx, int kNu>
+double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
+  double cost = 0.0;
+  for (std::size_t i = 0; i < qp.stages.size(); ++i) {
+    const auto& stage = qp.stages[i];
+    const auto& at = point.stages[i];
+    cost += 0.5 * at.x.dot(stage.Q.cwiseProduct(at.x)) + stage.q.dot(at.x);
+    if (i + 1 < qp.stages.size()) cost += 0.5 * at.u.dot(stage.R.cwiseProduct(at.u)) + stage.r.dot(at.u);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      if (stage.rows[j].soft()) cost += 0.5 * stage.rows[j].rho * at.slack[j] * at.slack[j];
+    }
+  }
+  return cost;
+}
+
+// Any feasible trajectory has 0 ≤ Σ λ_lo (C x + D u − lo) + λ_hi (hi − C x − D u) = Σ (dᵢᵀxᵢ + eᵢᵀuᵢ) +
+// constant with d = Σ_j C_j (λ_lo − λ_hi), e likewise. The adjoint π_N = d_N, π_i = d_i + Aᵀ π_{i+1} turns it
+// into constant + π_0ᵀ x_0 + Σ π_{i+1}ᵀ c_i + Σ (e_i + Bᵀ π_{i+1})ᵀ u_i, whose maximum over the inputs'
+// bounds is summed here.
+template <int kNx, int kNu>
+bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
+  constexpr double kRoundOff = 1e-9;
+  double sum = 0.0;
+  double magnitude = 0.0;
+  double largest_lambda = 0.0;
+  const auto add = [&](double term) {
+    sum += term;
+    magnitude += std::abs(term);
+  };
+  Eigen::Matrix<double, kNx, 1> pi = Eigen::Matrix<double, kNx, 1>::Zero();
+  for (std::size_t i = qp.stages.size(); i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    const bool terminal = i + 1 == qp.stages.size();
+    Eigen::Matrix<double, kNx, 1> d = Eigen::Matrix<double, kNx, 1>::Zero();
+    Eigen::Matrix<double, kNu, 1> e = Eigen::Matrix<double, kNu, 1>::Zero();
+    Eigen::Matrix<double, kNu, 1> u_min = Eigen::Matrix<double, kNu, 1>::Constant(-kNoBound);
+    Eigen::Matrix<double, kNu, 1> u_max = Eigen::Matrix<double, kNu, 1>::Constant(kNoBound);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      if (row.soft()) continue;
+      const double lambda_lo = row.has_lo() ? std::max(0.0, point.stages[i].lambda[j].lo) : 0.0;
+      const double lambda_hi = row.has_hi() ? std::max(0.0, point.stages[i].lambda[j].hi) : 0.0;
+      largest_lambda = std::max({largest_lambda, lambda_lo, lambda_hi});
+      d += row.C * (lambda_lo - lambda_hi);
+      e += row.D * (lambda_lo - lambda_hi);
+      if (row.has_lo()) add(-lambda_lo * row.lo);
+      if (row.has_hi()) add(lambda_hi * row.hi);
+      if (!terminal && row.unit >= kNx) {
+        u_min[row.unit - kNx] = std::max(u_min[row.unit - kNx], row.lo);
+        u_max[row.unit - kNx] = std::min(u_max[row.unit - kNx], row.hi);
+      }
+    }
+    if (!terminal) {
+      add(pi.dot(stage.c));
+      e += stage.B.transpose() * pi;
+      for (int k = 0; k < kNu; ++k) {
+        const double worst = std::max(e[k] * u_min[k], e[k] * u_max[k]);
+        if (std::isfinite(worst)) {
+          add(worst);
+        } else if (std::abs(e[k]) > kRoundOff * largest_lambda) {
+          return false;
+        }
+      }
+      pi = (d + stage.A.transpose() * pi).eval();
+    } else {
+      pi = d;
+    }
+  }
+  add(pi.dot(qp.x0));
+  return sum < -kRoundOff * magnitude;
+}
+
+}  // namespace control

@@ -1,0 +1,118 @@
+// Solves an OcpQp by a primal-dual interior-point method with Mehrotra's predictor and corrector; each Newton
+// system is an unconstrained linear-quadratic problem, solved by the Riccati recursion in O(N).
+//
+// Sources: S. Mehrotra, On the implementation of a primal-dual interior point method (1992); C. V. Rao, S. J.
+// Wright, J. B. Rawlings, Application of interior-point methods to model predictive control (1998).
+//
+// Example:
+//   OcpQpSolver<8, 2> solver(horizon);
+//   const QpResult result = solver.Solve(qp);            // cold, or solver.Solve(qp, &guess)
+//   if (result.status == SolverStatus::kSolved) use(solver.solution().stages[0].u);
+//
+// Instantiated for <8, 2> (the controllers); include ocp_qp_solver_impl.hpp for other sizes.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "control/controller.hpp"
+#include "control/ocp_qp.hpp"
+
+namespace control {
+
+struct QpSettings {
+  double tolerance = 1e-8;  // largest KKT residual of a solved problem, absolute, in the problem's units
+  int max_iterations = 60;
+};
+
+struct QpResult {
+  SolverStatus status = SolverStatus::kNumericalFailure;
+  int iterations = 0;
+  double kkt_residual = 0.0;
+};
+
+template <int kNx, int kNu>
+class OcpQpSolver {
+ public:
+  using Qp = OcpQp<kNx, kNu>;
+  using Point = OcpQpPoint<kNx, kNu>;
+
+  explicit OcpQpSolver(int horizon, const QpSettings& settings = {});
+
+  // `qp` must have the solver's horizon. Where nothing is violated by the optimum without any row, that is
+  // the answer, after 0 iterations. A guess gives the inputs and multipliers to start from. Does not
+  // allocate.
+  //   kSolved            solution() satisfies the conditions of optimality to the tolerance
+  //   kInfeasible        solution()'s multipliers prove it (ProvesInfeasible)
+  //   kIterationLimit    neither within max_iterations; solution() is the last iterate
+  //   kNumericalFailure  data not finite, or a factorisation broke down; solution() is meaningless
+  QpResult Solve(const Qp& qp, const Point* guess = nullptr);
+
+  [[nodiscard]] const Point& solution() const { return point_; }
+
+ private:
+  static constexpr double kDualRegularisation = 1e-10;  // δ
+
+  using VectorX = Eigen::Matrix<double, kNx, 1>;
+  using VectorU = Eigen::Matrix<double, kNu, 1>;
+  using MatrixXX = Eigen::Matrix<double, kNx, kNx>;
+  using MatrixXU = Eigen::Matrix<double, kNx, kNu>;
+  using MatrixUX = Eigen::Matrix<double, kNu, kNx>;
+  using MatrixUU = Eigen::Matrix<double, kNu, kNu>;
+
+  // One bound of a row: its distance to the bound as a variable t > 0 of its own, and the Newton step.
+  struct Side {
+    bool present = false;
+    double bound = 0.0;  // for deviations from the base
+    double t = 1.0;
+    double lambda = 0.0;
+    double inverse_t = 0.0;  // 1 / (t + δ λ)
+    double w = 0.0;          // λ / (t + δ λ)
+    double residual = 0.0;   // distance − t
+    double y = 0.0;          // the part of dλ that does not depend on dx, du, dε
+    double dt = 0.0;
+    double dlambda = 0.0;
+  };
+  struct RowWork {
+    Side lo, hi;
+    double epsilon = 0.0;
+    double r_epsilon = 0.0;
+    double inverse_s = 0.0;  // 1 / (ρ + w_lo + w_hi); 0 of a hard row
+    double w = 0.0;
+    VectorX C_K;  // C + D K; not used where the row bounds a state alone
+    double depsilon = 0.0;
+  };
+  // Deviations from the base, the optimum without rows, and the recursion's results.
+  struct StageWork {
+    VectorX base_x, base_pi, x, pi, dx, dpi, r_x, p;
+    VectorU base_u, u, du, r_u, k;
+    MatrixXX P, A_K;
+    MatrixUX K;
+    MatrixUU H_uu_inverse;
+    std::array<RowWork, kMaxRows> rows;
+  };
+
+  bool SolveBase(const Qp& qp);
+  bool ShiftRows(const Qp& qp);
+  void StartCold(const Qp& qp);
+  void StartFrom(const Qp& qp, const Point& guess);
+  void StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x, const VectorU& u,
+                double least, double mu, const RowMultiplier& at_least);
+  double Residuals(const Qp& qp);
+  bool Factorise(const Qp& qp, bool with_rows);
+  void Step(const Qp& qp, double target, bool second_order);
+  double StepLength(const Qp& qp, double keep) const;
+  double ComplementarityAfter(const Qp& qp, double alpha) const;
+  void Move(const Qp& qp, double alpha);
+  void WriteSolution(const Qp& qp);
+
+  QpSettings settings_;
+  Point point_;
+  std::vector<StageWork> work_;
+  double mu_ = 0.0;            // mean complementarity
+  int sides_ = 0;              // finite bounds
+  double row_residual_ = 0.0;  // largest |distance − t|
+};
+
+}  // namespace control

@@ -1,0 +1,454 @@
+// Definitions of ocp_qp_solver.hpp's template; include where it is instantiated.
+//
+// The base is the optimum without any row. About it the cost is purely quadratic and the dynamics have no
+// constant:
+//   min Σ ½ xᵀQx + ½ uᵀRu + Σ_soft ½ρε²   s.t.  x_0 = 0, x' = A x + B u,  lo − ε ≤ C x + D u ≤ hi + ε
+// with shifted bounds; x, u, π below are these deviations. So positions of hundreds of metres cost no digits.
+//
+// Each bound is an equation with a distance t ≥ 0 and a multiplier λ ≥ 0,
+//   C x + D u + ε − lo = t_lo,   hi + ε − C x − D u = t_hi,   λ t = σμ.
+// Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a curvature on C dx + D du,
+//   w = w_lo + w_hi − (w_lo − w_hi)² / (ρ + w_lo + w_hi),   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi likewise
+//   (last term: soft rows),
+// and a gradient term. δ regularises the step alone, dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤
+// 1/δ and so the digits of P, and vanishes with dλ. What remains is
+//   min ½ dxᵀ(Q + Σ w CCᵀ)dx + duᵀ(Σ w DCᵀ)dx + ½ duᵀ(R + Σ w DDᵀ)du + g_xᵀdx + g_uᵀdu,  dx' = A dx + B du,
+// which the Riccati recursion solves. It is written with the closed loop A_K = A + B K and C_K = C + D K, as
+// a sum of positive semidefinite terms: the usual difference of large terms loses all digits where w → ∞ in a
+// row with D ≠ 0.
+//   P = Q + KᵀRK + A_Kᵀ P' A_K + Σ w C_Kᵀ C_K,   K = −H_uu⁻¹ H_ux,   H_uu = R + BᵀP'B + Σ w DDᵀ,  H_ux =
+//   BᵀP'A + Σ w DCᵀ p = r_x + Kᵀ r_u + A_Kᵀ p' + Σ γ C_Kᵀ,       k = −H_uu⁻¹ h_u,    h_u = r_u + Bᵀp' + Σ γ D
+// with the gradient γ of each row; r_x, r_u are the gradients of the Lagrangian at the iterate.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "control/ocp_qp_impl.hpp"
+#include "control/ocp_qp_solver.hpp"
+
+namespace control {
+
+namespace detail {
+
+// Calls visit(row, row work, stage work) for every row.
+template <typename Qp, typename Work, typename Visit>
+void ForEachRow(const Qp& qp, Work& work, Visit&& visit) {
+  for (std::size_t i = 0; i < qp.stages.size(); ++i) {
+    const auto& stage = qp.stages[i];
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      visit(stage.rows[j], work[i].rows[j], work[i]);
+    }
+  }
+}
+
+// C x + D u.
+template <typename Row, typename VectorX, typename VectorU>
+double RowValue(const Row& row, const VectorX& x, const VectorU& u) {
+  if (row.unit >= VectorX::RowsAtCompileTime) return u[row.unit - VectorX::RowsAtCompileTime];
+  if (row.unit >= 0) return x[row.unit];
+  return row.C.dot(x) + row.D.dot(u);
+}
+
+// [gradient_x; gradient_u] += factor [C; D].
+template <typename Row, typename VectorX, typename VectorU>
+void AddRowGradient(const Row& row, double factor, VectorX& gradient_x, VectorU& gradient_u) {
+  if (row.unit >= VectorX::RowsAtCompileTime) {
+    gradient_u[row.unit - VectorX::RowsAtCompileTime] += factor;
+  } else if (row.unit >= 0) {
+    gradient_x[row.unit] += factor;
+  } else {
+    gradient_x += factor * row.C;
+    gradient_u += factor * row.D;
+  }
+}
+
+}  // namespace detail
+
+template <int kNx, int kNu>
+OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
+    : settings_(settings), point_(horizon), work_(static_cast<std::size_t>(horizon) + 1) {}
+
+template <int kNx, int kNu>
+QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
+  QpResult result;
+  if (!SolveBase(qp)) return result;
+  if (ShiftRows(qp)) {
+    WriteSolution(qp);
+    result.kkt_residual = EvaluateKkt(qp, point_).Max();
+    if (result.kkt_residual <= settings_.tolerance) result.status = SolverStatus::kSolved;
+    return result;
+  }
+  if (guess != nullptr) {
+    StartFrom(qp, *guess);
+  } else {
+    StartCold(qp);
+  }
+  for (;; ++result.iterations) {
+    result.kkt_residual = Residuals(qp);
+    if (!std::isfinite(result.kkt_residual)) return result;
+    if (result.kkt_residual <= settings_.tolerance) {
+      result.status = SolverStatus::kSolved;
+      break;
+    }
+    if (row_residual_ > settings_.tolerance && result.iterations >= 3) {
+      WriteSolution(qp);
+      if (ProvesInfeasible(qp, point_)) {
+        result.status = SolverStatus::kInfeasible;
+        return result;
+      }
+    }
+    if (result.iterations == settings_.max_iterations) {
+      result.status = SolverStatus::kIterationLimit;
+      break;
+    }
+    if (!Factorise(qp, true)) return result;
+    // Predictor: straight at complementarity zero. How far it gets tells how much centring the corrector
+    // needs.
+    Step(qp, 0.0, false);
+    const double ratio = ComplementarityAfter(qp, StepLength(qp, 1.0)) / mu_;
+    // A μ far below the tolerance would cost digits (t of the size of round-off) and gain nothing.
+    const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * settings_.tolerance);
+    Step(qp, target, true);
+    Move(qp, StepLength(qp, std::max(0.995, 1.0 - mu_)));
+  }
+  WriteSolution(qp);
+  return result;
+}
+
+// The optimum without rows: here the recursion carries the problem's own gradients and constants.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
+  if (!Factorise(qp, false)) return false;
+  const std::size_t N = work_.size() - 1;
+  work_[N].p = qp.stages[N].q;
+  for (std::size_t i = N; i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    const VectorX p_next = work_[i + 1].P * stage.c + work_[i + 1].p;
+    const VectorU h_u = stage.r + stage.B.transpose() * p_next;
+    work.k = -work.H_uu_inverse * h_u;
+    work.p = stage.q + work.A_K.transpose() * p_next + work.K.transpose() * stage.r;
+  }
+  work_[0].base_x = qp.x0;
+  work_[0].base_pi.setZero();
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    auto& next = work_[i + 1];
+    work.base_u = work.k + work.K * work.base_x;
+    next.base_x = stage.A * work.base_x + stage.B * work.base_u + stage.c;
+    next.base_pi = next.P * next.base_x + next.p;
+  }
+  work_[N].base_u.setZero();
+  return work_[N].base_x.allFinite() && work_[N].base_pi.allFinite();
+}
+
+// Bounds for deviations from the base. True if the base itself violates none.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
+  bool satisfied = true;
+  sides_ = 0;
+  for (auto& work : work_) {
+    work.x.setZero();
+    work.u.setZero();
+    work.pi.setZero();
+  }
+  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
+    const double value = detail::RowValue(row, stage.base_x, stage.base_u);
+    work = RowWork{};
+    work.lo.present = row.has_lo();
+    work.hi.present = row.has_hi();
+    work.lo.bound = row.lo - value;
+    work.hi.bound = row.hi - value;
+    satisfied = satisfied && work.lo.bound <= 0.0 && work.hi.bound >= 0.0;
+    sides_ += static_cast<int>(row.has_lo()) + static_cast<int>(row.has_hi());
+  });
+  return satisfied;
+}
+
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x,
+                                     const VectorU& u, double least, double mu,
+                                     const RowMultiplier& at_least) {
+  const double value = detail::RowValue(row, x, u);
+  const auto side = [&](Side& s, double distance, double lambda) {
+    s.t = std::max(distance, least);
+    s.lambda = s.present ? std::max(lambda, mu / s.t) : 0.0;
+  };
+  side(work.lo, value - work.lo.bound, at_least.lo);
+  side(work.hi, work.hi.bound - value, at_least.hi);
+  work.epsilon = row.rho > 0.0 ? (work.lo.lambda + work.hi.lambda) / row.rho : 0.0;
+}
+
+// From the base, every distance at least a tenth of its row's width.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::StartCold(const Qp& qp) {
+  constexpr double kStartMu = 1.0;
+  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
+    const double least = 0.1 * std::min(1.0, row.hi - row.lo) + 1e-3;
+    StartRow(row, work, stage.x, stage.u, least, kStartMu, {});
+  });
+}
+
+// From the guess's inputs and multipliers, kept off the boundary so that a row may still change sides.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::StartFrom(const Qp& qp, const Point& guess) {
+  constexpr double kStartMu = 1e-2;
+  for (std::size_t i = 0; i < work_.size(); ++i) {
+    auto& work = work_[i];
+    work.u = guess.stages[i].u - work.base_u;
+    work.pi = guess.stages[i].pi - work.base_pi;
+    if (i + 1 < work_.size()) work_[i + 1].x = qp.stages[i].A * work.x + qp.stages[i].B * work.u;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(qp.stages[i].row_count); ++j) {
+      const auto& row = qp.stages[i].rows[j];
+      const double least = 0.02 * std::min(1.0, row.hi - row.lo) + 1e-3;
+      StartRow(row, work.rows[j], work.x, work.u, least, kStartMu, guess.stages[i].lambda[j]);
+    }
+  }
+}
+
+// Residuals of all equations but λ t = 0 into the work space, and μ. Returns the largest KKT residual.
+template <int kNx, int kNu>
+double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
+  const std::size_t N = work_.size() - 1;
+  double largest = 0.0;
+  double complementarity = 0.0;
+  row_residual_ = 0.0;
+  const auto raise = [&](double value) {
+    if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
+  };
+  for (std::size_t i = 0; i <= N; ++i) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    work.r_x = stage.Q.cwiseProduct(work.x) - work.pi;
+    work.r_u.setZero();
+    if (i < N) {
+      work.r_x.noalias() += stage.A.transpose() * work_[i + 1].pi;
+      work.r_u = stage.R.cwiseProduct(work.u);
+      work.r_u.noalias() += stage.B.transpose() * work_[i + 1].pi;
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      RowWork& at = work.rows[j];
+      const double value = detail::RowValue(row, work.x, work.u);
+      detail::AddRowGradient(row, at.hi.lambda - at.lo.lambda, work.r_x, work.r_u);
+      const auto side = [&](Side& s, double distance) {
+        if (!s.present) return;
+        s.residual = distance - s.t;
+        complementarity += s.lambda * s.t;
+        row_residual_ = std::max(row_residual_, std::abs(s.residual));
+        raise(s.lambda * std::max(s.t, distance));
+      };
+      side(at.lo, value + at.epsilon - at.lo.bound);
+      side(at.hi, at.hi.bound + at.epsilon - value);
+      if (row.soft()) {
+        at.r_epsilon = row.rho * at.epsilon - at.lo.lambda - at.hi.lambda;
+        raise(at.r_epsilon);
+      }
+    }
+    if (i > 0) raise(work.r_x.cwiseAbs().maxCoeff());
+    if (i < N) raise(work.r_u.cwiseAbs().maxCoeff());
+  }
+  raise(row_residual_);
+  mu_ = complementarity / std::max(sides_, 1);
+  return largest;
+}
+
+// Row weights and the matrices of the Riccati recursion. False if a pivot is not positive.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
+  for (std::size_t i = work_.size(); i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    const bool terminal = i + 1 == work_.size();
+    const std::size_t row_count = with_rows ? static_cast<std::size_t>(stage.row_count) : 0;
+    for (std::size_t j = 0; j < row_count; ++j) {
+      RowWork& at = work.rows[j];
+      const auto side = [](Side& s) {
+        if (!s.present) return;
+        s.inverse_t = 1.0 / (s.t + kDualRegularisation * s.lambda);
+        s.w = s.lambda * s.inverse_t;
+      };
+      side(at.lo);
+      side(at.hi);
+      at.w = at.lo.w + at.hi.w;
+      const double s = stage.rows[j].rho + at.w;
+      at.inverse_s = stage.rows[j].soft() && s > 0.0 ? 1.0 / s : 0.0;
+      at.w -= (at.lo.w - at.hi.w) * (at.lo.w - at.hi.w) * at.inverse_s;
+    }
+
+    MatrixXX& P = work.P;
+    if (terminal) {
+      P = stage.Q.asDiagonal();
+    } else {
+      const MatrixXX& P_next = work_[i + 1].P;
+      const MatrixXX PA = P_next * stage.A;
+      const MatrixXU PB = P_next * stage.B;
+      MatrixUU H_uu = stage.R.asDiagonal();
+      H_uu.noalias() += stage.B.transpose() * PB;
+      MatrixUX H_ux = stage.B.transpose() * PA;
+      for (std::size_t j = 0; j < row_count; ++j) {
+        const auto& row = stage.rows[j];
+        if (row.unit >= kNx) {
+          H_uu(row.unit - kNx, row.unit - kNx) += work.rows[j].w;
+        } else if (row.unit < 0) {
+          const VectorU wD = work.rows[j].w * row.D;
+          H_ux.noalias() += wD * row.C.transpose();
+          H_uu.noalias() += wD * row.D.transpose();
+        }
+      }
+      const Eigen::LLT<MatrixUU> llt(H_uu);
+      if (llt.info() != Eigen::Success) return false;
+      work.H_uu_inverse = llt.solve(MatrixUU::Identity());
+      work.K.noalias() = -work.H_uu_inverse * H_ux;
+      work.A_K = stage.A;
+      work.A_K.noalias() += stage.B * work.K;
+      const MatrixXX PA_K = PA + PB * work.K;
+      P.noalias() = work.A_K.transpose() * PA_K;
+      P.noalias() += work.K.transpose() * (stage.R.asDiagonal() * work.K);
+      P = (0.5 * (P + P.transpose())).eval();
+      P.diagonal() += stage.Q;
+    }
+    for (std::size_t j = 0; j < row_count; ++j) {
+      const auto& row = stage.rows[j];
+      RowWork& at = work.rows[j];
+      if (row.unit >= 0 && row.unit < kNx) {
+        P(row.unit, row.unit) += at.w;
+        continue;
+      }
+      at.C_K = row.C;
+      if (!terminal) at.C_K.noalias() += work.K.transpose() * row.D;
+      const VectorX wC_K = at.w * at.C_K;
+      P.noalias() += wC_K * at.C_K.transpose();
+    }
+  }
+  return true;
+}
+
+// The Newton step towards λ t = target, with Mehrotra's second-order term of the step before it if asked for.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order) {
+  const std::size_t N = work_.size() - 1;
+  for (std::size_t i = N + 1; i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    VectorU h_u = work.r_u;
+    work.p = work.r_x;
+    if (i < N) {
+      const VectorX& p_next = work_[i + 1].p;
+      h_u.noalias() += stage.B.transpose() * p_next;
+      work.p.noalias() += work.A_K.transpose() * p_next;
+      work.p.noalias() += work.K.transpose() * work.r_u;
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      RowWork& at = work.rows[j];
+      const auto side = [&](Side& s) {
+        if (!s.present) return;
+        const double cross = second_order ? s.dt * s.dlambda : 0.0;
+        s.y = (target - cross - s.lambda * s.t) * s.inverse_t - s.w * s.residual;
+      };
+      side(at.lo);
+      side(at.hi);
+      const double gradient =
+          at.hi.y - at.lo.y + (at.lo.w - at.hi.w) * (at.lo.y + at.hi.y - at.r_epsilon) * at.inverse_s;
+      if (row.unit >= 0 && row.unit < kNx) {
+        work.p[row.unit] += gradient;
+      } else {
+        work.p += gradient * at.C_K;
+        h_u += gradient * row.D;
+      }
+    }
+    if (i < N) work.k.noalias() = -work.H_uu_inverse * h_u;
+  }
+  work_[0].dx.setZero();
+  work_[0].dpi.setZero();
+  work_[N].du.setZero();
+  for (std::size_t i = 0; i < N; ++i) {
+    auto& work = work_[i];
+    auto& next = work_[i + 1];
+    work.du = work.k;
+    work.du.noalias() += work.K * work.dx;
+    next.dx.noalias() = qp.stages[i].A * work.dx;
+    next.dx.noalias() += qp.stages[i].B * work.du;
+    next.dpi = next.p;
+    next.dpi.noalias() += next.P * next.dx;
+  }
+  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& at, const StageWork& stage) {
+    const double dg = detail::RowValue(row, stage.dx, stage.du);
+    at.depsilon = (at.lo.y + at.hi.y - at.r_epsilon - (at.lo.w - at.hi.w) * dg) * at.inverse_s;
+    const auto side = [](Side& s, double distance_step) {
+      s.dlambda = s.y - s.w * distance_step;
+      s.dt = distance_step + s.residual + kDualRegularisation * s.dlambda;
+    };
+    side(at.lo, dg + at.depsilon);
+    side(at.hi, -dg + at.depsilon);
+  });
+}
+
+// The largest α ≤ 1 that leaves of every t and λ at least the fraction 1 − keep.
+template <int kNx, int kNu>
+double OcpQpSolver<kNx, kNu>::StepLength(const Qp& qp, double keep) const {
+  double alpha = 1.0 / keep;
+  const auto side = [&](const Side& s) {
+    if (!s.present) return;
+    if (s.t + alpha * s.dt < 0.0) alpha = -s.t / s.dt;
+    if (s.lambda + alpha * s.dlambda < 0.0) alpha = -s.lambda / s.dlambda;
+  };
+  detail::ForEachRow(qp, work_, [&](const auto&, const RowWork& at, const auto&) {
+    side(at.lo);
+    side(at.hi);
+  });
+  return keep * alpha;
+}
+
+template <int kNx, int kNu>
+double OcpQpSolver<kNx, kNu>::ComplementarityAfter(const Qp& qp, double alpha) const {
+  double sum = 0.0;
+  const auto side = [&](const Side& s) {
+    if (s.present) sum += (s.t + alpha * s.dt) * (s.lambda + alpha * s.dlambda);
+  };
+  detail::ForEachRow(qp, work_, [&](const auto&, const RowWork& at, const auto&) {
+    side(at.lo);
+    side(at.hi);
+  });
+  return sum / std::max(sides_, 1);
+}
+
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::Move(const Qp& qp, double alpha) {
+  for (auto& work : work_) {
+    work.x += alpha * work.dx;
+    work.u += alpha * work.du;
+    work.pi += alpha * work.dpi;
+  }
+  const auto side = [&](Side& s) {
+    if (!s.present) return;
+    s.t += alpha * s.dt;
+    s.lambda += alpha * s.dlambda;
+  };
+  detail::ForEachRow(qp, work_, [&](const auto&, RowWork& at, const auto&) {
+    side(at.lo);
+    side(at.hi);
+    at.epsilon += alpha * at.depsilon;
+  });
+}
+
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::WriteSolution(const Qp& qp) {
+  for (std::size_t i = 0; i < work_.size(); ++i) {
+    const auto& work = work_[i];
+    auto& at = point_.stages[i];
+    at.x = work.base_x + work.x;
+    at.u = work.base_u + work.u;
+    at.pi = work.base_pi + work.pi;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(qp.stages[i].row_count); ++j) {
+      at.lambda[j] = {.lo = work.rows[j].lo.lambda, .hi = work.rows[j].hi.lambda};
+      at.slack[j] = work.rows[j].epsilon;
+    }
+  }
+}
+
+}  // namespace control
