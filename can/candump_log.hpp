@@ -4,11 +4,10 @@
 //   (1700000000.123456) vcan0 12345678#           data frame of an extended id: eight digits
 //   (1700000000.123456) vcan0 123#R4              remote frame that asks for 4 bytes; a lone R asks for none
 //   (1700000000.123456) vcan0 123##31122          FD frame: one digit of flags, then the payload
-//   (1700000000.123456) vcan0 20000004#0004...    error frame: eight digits with CAN_ERR_FLAG (0x20000000)
-//   set
+//   (1700000000.123456) vcan0 20000004#0004...    error frame: eight digits, CAN_ERR_FLAG (20000000) set
 //
-// The time has exactly six decimals. Digits of either case are read, and so is a suffix " T" or " R" (candump
-// -x).
+// The time has exactly six decimals. Digits of either case are read, and so is a suffix " T" or " R"
+// (candump -x). Of the FD flags CANFD_BRS and CANFD_ESI are kept.
 #pragma once
 
 #include <optional>

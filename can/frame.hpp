@@ -38,8 +38,7 @@ struct Frame {
   }
 };
 
-// True if the frame can stand on a bus: id and length in range for its kind, and remote and error frames
-// classic.
+// True if the frame can stand on a bus: id and length are in range, and only a data frame is FD.
 [[nodiscard]] bool IsValid(const Frame& frame);
 
 // True if both would look the same on the wire; time stamps are not compared.

@@ -22,17 +22,15 @@ namespace {
 
 constexpr std::uint8_t kFdFlags = CANFD_BRS | CANFD_ESI;
 
-enum class Lookup { kFound, kNoInterface, kNotCan };
+enum class Lookup { kFound, kNoInterface, kNotCan, kFailed };
 
-// The index of the CAN interface of that name. Asked through a Unix socket, which every kernel and sandbox
-// has.
+// The index of the CAN interface of that name. A Unix socket will do: every kernel and sandbox has it.
 Lookup FindInterface(const std::string& name, int& index) {
   ifreq request{};
   if (name.empty() || name.size() >= sizeof(request.ifr_name)) return Lookup::kNoInterface;
   name.copy(request.ifr_name, name.size());
   const int fd = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (fd < 0)
-    throw std::system_error(errno, std::generic_category(), "cannot look up interface \"" + name + "\"");
+  if (fd < 0) return Lookup::kFailed;
   const bool has_index = ::ioctl(fd, SIOCGIFINDEX, &request) == 0;
   index = request.ifr_ifindex;
   const bool has_type = has_index && ::ioctl(fd, SIOCGIFHWADDR, &request) == 0;
@@ -116,6 +114,10 @@ canfd_frame ToKernel(const Frame& frame) {
   return kernel;
 }
 
+[[noreturn]] void ThrowErrno(int error, const std::string& interface) {
+  throw std::system_error(error, std::generic_category(), "cannot open CAN interface \"" + interface + "\"");
+}
+
 }  // namespace
 
 Filter ExactStandardId(std::uint32_t id) {
@@ -136,14 +138,15 @@ Socket::Socket(std::string interface, SocketOptions options)
       throw std::runtime_error("no CAN interface \"" + interface_ + "\"");
     case Lookup::kNotCan:
       throw std::runtime_error("interface \"" + interface_ + "\" is not a CAN interface");
+    case Lookup::kFailed:
+      ThrowErrno(errno, interface_);
   }
   fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   // Bound last: until then nothing is received, so no frame comes past the filters or without a stamp.
   if (fd_ < 0 || !Configure(fd_, options_) || !Bind(fd_, index)) {
     const int error = errno;
     if (fd_ >= 0) ::close(fd_);
-    throw std::system_error(error, std::generic_category(),
-                            "cannot open CAN interface \"" + interface_ + "\"");
+    ThrowErrno(error, interface_);
   }
   receive_buffer_bytes_ = GrantedReceiveBuffer(fd_);
 }

@@ -5,10 +5,10 @@
 //   while (can::WaitReadable(socket.fd(), 100ms))
 //     if (socket.Receive(received) == can::ReceiveStatus::kFrame) Use(received.frame);
 //
-// Nothing blocks, and neither Receive nor Send allocates. Errors while opening throw; later ones are
+// Nothing blocks, and neither Receive nor Send allocates. Errors while opening throw, later ones are
 // statuses. An interface that goes down and comes up again needs nothing done: the socket stays bound to it.
-// After kInterfaceGone the interface has been deleted, and Reopen binds to one of the same name as soon as it
-// exists.
+// One that was deleted (kInterfaceGone) is bound to again by Reopen, as soon as there is one of the same
+// name. The kernel tells such an event once, to the first of Receive and Send that is called after it.
 #pragma once
 
 #include <chrono>
@@ -32,11 +32,11 @@ struct Filter {
 [[nodiscard]] Filter ExactExtendedId(std::uint32_t id);
 
 struct SocketOptions {
-  std::vector<Filter> filters;             // a frame is received if any lets it through; none: every frame is
+  std::vector<Filter> filters{};           // a frame is received if any lets it through; none: every frame is
   std::uint32_t error_mask = 0;            // error classes received as error frames (linux/can/error.h)
   bool receive_own = false;                // frames sent through this socket are received too, marked as own
   bool fd_frames = false;                  // CAN FD frames can be sent and received
-  int receive_buffer_bytes = 1024 * 1024;  // asked for; about 700 bytes a frame. The kernel may grant less.
+  int receive_buffer_bytes = 1024 * 1024;  // asked for; about 770 bytes a frame. The kernel may grant less.
 };
 
 struct Received {
@@ -47,8 +47,8 @@ struct Received {
 enum class ReceiveStatus {
   kFrame,          // a frame was received
   kWouldBlock,     // there is none now
-  kInterfaceDown,  // the interface went down; told once, kWouldBlock follows until it is up again
-  kInterfaceGone,  // the interface was deleted; told once, see Reopen
+  kInterfaceDown,  // the interface went down; kWouldBlock follows until it is up again
+  kInterfaceGone,  // the interface was deleted; kWouldBlock follows until Reopen succeeds
   kError,          // any other error, see last_error
 };
 
@@ -56,7 +56,7 @@ enum class SendStatus {
   kSent,           // handed to the interface
   kQueueFull,      // the transmit queue is full; the frame is not sent
   kInterfaceDown,  // the interface is down
-  kInterfaceGone,  // the interface was deleted, see Reopen
+  kInterfaceGone,  // the interface was deleted and Reopen has not succeeded yet
   kInvalidFrame,   // not IsValid, or an FD frame where the socket or the interface has no FD
   kError,          // any other error, see last_error
 };
@@ -91,9 +91,8 @@ class Socket {
 
   [[nodiscard]] SendStatus Send(const Frame& frame);
 
-  // Binds to the interface that has the name now. False if there is none or it is not CAN. The file
-  // descriptor stays the same one, so it stays registered with an epoll instance. Harmless if nothing has
-  // changed.
+  // Binds to the interface that has the name now; false if there is none or it is not CAN. The file
+  // descriptor stays the same, and with it its place in an epoll instance. Harmless if nothing has changed.
   [[nodiscard]] bool Reopen();
 
   // For epoll and poll: readable when a frame or an error is there for Receive.

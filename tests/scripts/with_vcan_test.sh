@@ -18,7 +18,7 @@ NoneRuns() {
   ! pgrep -f -- "$1" >/dev/null
 }
 
-# The temporary folder of the wrapper that booted the kernel with this command line, none if it is our own one.
+# The temporary folder of the wrapper that booted the kernel with this command line; none for our own kernel.
 GuestFolder() { # GuestFolder FILE
   [ "$(<"$1")" = "$(</proc/cmdline)" ] || sed -n 's,.* init=\([^ ]*\)/init .*,\1,p' "$1"
 }

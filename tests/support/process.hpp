@@ -19,8 +19,7 @@ namespace test_support {
 
 class Process {
  public:
-  // Starts argv[0], looked up in PATH, with an empty stdin. Throws std::runtime_error if it cannot be
-  // started.
+  // Starts argv[0], looked up in PATH, with an empty stdin. Throws std::runtime_error if that fails.
   explicit Process(const std::vector<std::string>& argv);
   ~Process();
   Process(const Process&) = delete;
@@ -51,8 +50,8 @@ struct Outcome {
 };
 
 // Runs a command to its end. Throws std::runtime_error if that takes longer than `timeout`.
-[[nodiscard]] Outcome Run(const std::vector<std::string>& argv,
-                          std::chrono::milliseconds timeout = std::chrono::seconds(30));
+Outcome Run(const std::vector<std::string>& argv,
+            std::chrono::milliseconds timeout = std::chrono::seconds(30));
 
 // Asks `condition` every few milliseconds until it is true. False if it is not by `timeout`.
 template <typename Condition>
