@@ -1,0 +1,40 @@
+// All that a configuration describes, put together: bus, route, controller and the control loop about them.
+#pragma once
+
+#include <functional>
+
+#include "config/route_file.hpp"
+#include "control/lpv_mpc.hpp"
+#include "control/reference.hpp"
+#include "daemon/config.hpp"
+#include "daemon/control_loop.hpp"
+#include "daemon/time.hpp"
+#include "dbc/vehicle_bus.hpp"
+
+namespace lpvmpcd {
+
+class Assembly {
+ public:
+  // Throws std::runtime_error, one line: a file of the configuration is missing or wrong
+  // (config::ConfigError, dbc::DbcError with file and line), or the route is shorter than a horizon.
+  Assembly(const Config& config, std::function<Time()> stopwatch);
+
+  Assembly(const Assembly&) = delete;  // the loop points into it
+  Assembly& operator=(const Assembly&) = delete;
+
+  [[nodiscard]] ControlLoop& loop() { return loop_; }
+  [[nodiscard]] const dbc::VehicleBus& bus() const { return bus_; }
+  [[nodiscard]] const control::Reference& reference() const { return reference_; }
+  [[nodiscard]] const control::RoadBounds& road() const { return road_; }
+
+ private:
+  Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch);
+
+  dbc::VehicleBus bus_;
+  control::Reference reference_;
+  control::RoadBounds road_;
+  control::LpvMpc controller_;
+  ControlLoop loop_;
+};
+
+}  // namespace lpvmpcd

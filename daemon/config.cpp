@@ -1,0 +1,129 @@
+#include "daemon/config.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "config/toml_table.hpp"
+
+namespace lpvmpcd {
+namespace {
+
+using config::TomlTable;
+
+constexpr double kSmallest = 1e-9;  // of what has to be positive
+constexpr double kLargest = 1e12;
+
+// Sets `vector` from the array under `key`, if it is there.
+template <typename Vector>
+void ReadVector(const TomlTable& table, const char* key, Vector& vector, config::Range<double> range) {
+  if (table.Has(key)) {
+    const std::vector<double> values = table.Numbers(key, static_cast<std::size_t>(vector.size()), range);
+    std::ranges::copy(values, vector.data());
+  }
+}
+
+void ReadCycle(const TomlTable& table, Config& config) {
+  const double period = table.NumberOr("period", 0.05, {0.005, 1.0}, "s");
+  const double timeout = table.NumberOr("timeout", 1.5 * period, {0.005, 10.0}, "s");
+  if (timeout < period) {
+    throw table.Error("timeout", "must not be shorter than the period");
+  }
+  config.service.period = FromSeconds(period);
+  config.service.timeout = FromSeconds(timeout);
+  config.service.lockstep = table.BooleanOr("lockstep", config.service.lockstep);
+  config.loop.period = config.service.period;
+  config.mpc.t_s = period;
+}
+
+void ReadMonitor(const TomlTable& table, MonitorSettings& monitor) {
+  monitor.stale_periods = table.NumberOr("stale_periods", monitor.stale_periods, {1.0, 1000.0});
+  monitor.max_lost = table.IntegerOr("max_lost", monitor.max_lost, {0, 13});
+}
+
+void ReadLimits(const TomlTable& table, Config& config) {
+  control::CommandLimits& l = config.loop.limits;
+  l.max_steering = table.NumberOr("max_steering", l.max_steering, {0.01, 1.04}, "rad");
+  l.max_steering_step = table.NumberOr("max_steering_step", l.max_steering_step, {0.001, 2.0}, "rad");
+  l.min_acceleration = table.NumberOr("min_acceleration", l.min_acceleration, {-13.0, -0.1}, "m/s^2");
+  l.max_acceleration = table.NumberOr("max_acceleration", l.max_acceleration, {0.0, 13.0}, "m/s^2");
+  l.max_acceleration_step =
+      table.NumberOr("max_acceleration_step", l.max_acceleration_step, {0.01, 20.0}, "m/s^2");
+  config.mpc.u_min = {-l.max_steering, l.min_acceleration};
+  config.mpc.u_max = {l.max_steering, l.max_acceleration};
+  config.mpc.rate_max = {l.max_steering_step, l.max_acceleration_step};
+}
+
+void ReadController(const TomlTable& table, control::LpvMpcSettings& mpc) {
+  mpc.trust_region = table.ChoiceOr("kind", 0, {"lpv", "lpv-standard"}) == 0;
+  mpc.horizon = table.IntegerOr("horizon", mpc.horizon, {2, 100});
+  const bool euler = table.ChoiceOr("discretisation", 0, {"euler", "zero-order-hold"}) == 0;
+  mpc.discretisation = euler ? control::Discretisation::kEuler : control::Discretisation::kZeroOrderHold;
+  ReadVector(table, "Q", mpc.Q, {0.0, kLargest});
+  mpc.P = mpc.Q;
+  ReadVector(table, "P", mpc.P, {0.0, kLargest});
+  ReadVector(table, "R", mpc.R, {kSmallest, kLargest});
+  ReadVector(table, "E_p", mpc.E_p, {kSmallest, kLargest});
+  ReadVector(table, "trust_radius", mpc.trust_radius, {kSmallest, kLargest});
+  mpc.obstacle_margin = table.NumberOr("obstacle_margin", mpc.obstacle_margin, {0.0, 5.0}, "m");
+  ReadVector(table, "z_min", mpc.z_min, {});
+  ReadVector(table, "z_max", mpc.z_max, {});
+  if ((mpc.z_min.array() >= mpc.z_max.array()).any()) {
+    throw table.Error(table.Has("z_max") ? "z_max" : "z_min", "each of z_min must be below its z_max");
+  }
+}
+
+void ReadVehicle(const TomlTable& table, control::VehicleParameters& vehicle) {
+  vehicle.m = table.NumberOr("m", vehicle.m, {100.0, 1e5}, "kg");
+  vehicle.I_z = table.NumberOr("I_z", vehicle.I_z, {10.0, 1e6}, "kg m^2");
+  vehicle.l_f = table.NumberOr("l_f", vehicle.l_f, {0.1, 20.0}, "m");
+  vehicle.l_r = table.NumberOr("l_r", vehicle.l_r, {0.1, 20.0}, "m");
+  vehicle.C_alpha_f = table.NumberOr("C_alpha_f", vehicle.C_alpha_f, {1e3, 1e7}, "N/rad");
+  vehicle.C_alpha_r = table.NumberOr("C_alpha_r", vehicle.C_alpha_r, {1e3, 1e7}, "N/rad");
+}
+
+void ReadModes(const TomlTable& engage, const TomlTable& stop, LoopSettings& loop) {
+  loop.engage_min_speed = engage.NumberOr("min_speed", loop.engage_min_speed, {0.0, 50.0}, "m/s");
+  loop.engage_max_heading_error =
+      engage.NumberOr("max_heading_error", loop.engage_max_heading_error, {0.0, 3.15}, "rad");
+  loop.stop_deceleration = stop.NumberOr("deceleration", loop.stop_deceleration, {0.1, 10.0}, "m/s^2");
+  loop.standstill_speed = stop.NumberOr("standstill_speed", loop.standstill_speed, {0.01, 5.0}, "m/s");
+}
+
+}  // namespace
+
+Config LoadConfig(const std::filesystem::path& file) {
+  const TomlTable root = TomlTable::Read(file);
+  Config config;
+  const TomlTable bus = root.Table("bus");
+  config.service.interface = bus.TextOr("interface", "can0");
+  if (bus.Has("dbc")) {
+    config.dbc = bus.Path("dbc");
+  }
+  config.route = root.Table("route").Path("file");
+  ReadCycle(root.Table("cycle"), config);
+  ReadMonitor(root.Table("monitor"), config.loop.monitor);
+  ReadModes(root.Table("engage"), root.Table("safe_stop"), config.loop);
+  ReadLimits(root.Table("limits"), config);
+  ReadController(root.Table("controller"), config.mpc);
+  ReadVehicle(root.Table("vehicle"), config.vehicle);
+  config.loop.send_horizon = root.Table("status").BooleanOr("horizon", config.loop.send_horizon);
+  const std::vector<std::string> levels = {"debug", "info", "warning", "error"};
+  config.log_level = levels[root.Table("log").ChoiceOr("level", 1, levels)];
+  root.RefuseUnknownKeys();
+  return config;
+}
+
+void SelectController(Config& config, const std::string& name) {
+  if (name != "lpv" && name != "lpv-standard") {
+    throw std::invalid_argument("no controller \"" + name + "\": lpv or lpv-standard");
+  }
+  config.mpc.trust_region = name == "lpv";
+}
+
+std::string ControllerName(const Config& config) {
+  return config.mpc.trust_region ? "lpv" : "lpv-standard";
+}
+
+}  // namespace lpvmpcd

@@ -1,0 +1,66 @@
+// The daemon's configuration: one TOML file. A key that is not listed here is refused.
+//
+//   [bus]         interface = "can0"            CAN interface
+//                 dbc = "FILE"                  another definition of our messages; none: the built-in
+//                 dbc/vehicle.dbc
+//   [route]       file = "FILE"                 route file (config/route_file.hpp); required
+//   [cycle]       period = 0.05                 t_s of bus, reference and controller [s], 0.005..1
+//                 timeout = 0.075               after a state, until a cycle runs without one [s]; period..10
+//                 lockstep = false              time by the vehicle's counter: repeatable, for simulation
+//                 only
+//   [monitor]     stale_periods = 3.0           age, in its periods, above which a message is stale; 1..1000
+//                 max_lost = 2                  frames that may be missing between two accepted ones; 0..13
+//   [engage]      min_speed = 3.0               [m/s], 0..50
+//                 max_heading_error = 0.5       against the route [rad], 0..3.15
+//   [safe_stop]   deceleration = 3.0            [m/s²], 0.1..10
+//                 standstill_speed = 0.3        below it the vehicle stands [m/s], 0.01..5
+//   [limits]      max_steering = 0.593412       |δ| [rad], 0.01..1.04
+//                 max_steering_step = 0.436332  |δ_k − δ_{k−1}| [rad], 0.001..2
+//                 min_acceleration = -6.0       [m/s²], -13..-0.1
+//                 max_acceleration = 2.0        [m/s²], 0..13
+//                 max_acceleration_step = 1.5   |a_k − a_{k−1}| [m/s²], 0.01..20
+//                 (of the problem that is solved and of the limiter after it)
+//   [controller]  kind = "lpv"                  "lpv": with the scheduling trust region, "lpv-standard":
+//   without
+//                 horizon = 8                   N, 2..100
+//                 discretisation = "euler"      "euler" as in the paper, or "zero-order-hold"
+//                 Q = [10, 10, 1, 1, 10, 1]     weights of the error in X Y υ ν ψ ω, each >= 0
+//                 P = Q                         those of the last step
+//                 R = [0.1, 0.1]                weights of δ and a, each > 0
+//                 E_p = [1e3, 1e3, 1e3, 1e3]    weights of the trust region's slacks, each > 0
+//                 trust_radius = [0.5, 0.3, 0.05, 0.05]   of υ [m/s], ν [m/s], ψ [rad], δ [rad], each > 0
+//                 obstacle_margin = 0.1         by which obstacles are enlarged [m], 0..5
+//                 z_min, z_max                  bounds on X Y υ ν ψ ω; that on ψ is relative to the reference
+//   [vehicle]     m, I_z, l_f, l_r, C_alpha_f, C_alpha_r        see control/vehicle_parameters.hpp
+//   [status]      horizon = true                send the planned horizon
+//   [log]         level = "info"                "debug", "info", "warning", "error"
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "control/lpv_mpc.hpp"
+#include "control/vehicle_parameters.hpp"
+#include "daemon/control_loop.hpp"
+#include "daemon/service.hpp"
+
+namespace lpvmpcd {
+
+struct Config {
+  std::filesystem::path dbc;  // empty: built in
+  std::filesystem::path route;
+  ServiceSettings service;
+  LoopSettings loop;
+  control::LpvMpcSettings mpc;
+  control::VehicleParameters vehicle;
+  std::string log_level = "info";
+};
+
+// Throws config::ConfigError: file, line, key, value and what is allowed.
+[[nodiscard]] Config LoadConfig(const std::filesystem::path& file);
+
+// Names of the controllers, and the choice of one: "lpv" or "lpv-standard". Throws std::invalid_argument.
+void SelectController(Config& config, const std::string& name);
+[[nodiscard]] std::string ControllerName(const Config& config);
+
+}  // namespace lpvmpcd

@@ -1,0 +1,180 @@
+#include "daemon/event_log.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <systemd/sd-daemon.h>
+
+namespace lpvmpcd {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The priority of a line as systemd reads it from stderr (sd-daemon(3)).
+class JournalPriority : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
+              spdlog::memory_buf_t& out) override {
+    const char digit = message.level >= spdlog::level::err    ? '3'
+                       : message.level >= spdlog::level::warn ? '4'
+                       : message.level >= spdlog::level::info ? '6'
+                                                              : '7';
+    out.push_back('<');
+    out.push_back(digit);
+    out.push_back('>');
+  }
+  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<JournalPriority>();
+  }
+};
+
+}  // namespace
+
+void OpenLog(const std::string& level) {
+  auto logger =
+      std::make_shared<spdlog::logger>("lpvmpcd", std::make_shared<spdlog::sinks::stderr_sink_st>());
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  if (std::getenv("JOURNAL_STREAM") != nullptr) {
+    formatter->add_flag<JournalPriority>('K').set_pattern("%K%v");
+  } else {
+    formatter->set_pattern("%H:%M:%S.%e %-7l %v");
+  }
+  logger->set_formatter(std::move(formatter));
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::trace);
+  spdlog::set_default_logger(std::move(logger));
+}
+
+bool EventCount::Tell(std::uint64_t total, Time now, std::uint64_t& news) {
+  if (total == told_ || (told_ != 0 && now - last_ < 1s)) {
+    return false;
+  }
+  news = total - told_;
+  told_ = total;
+  last_ = now;
+  return true;
+}
+
+void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
+  const CycleReport& report = loop.report();
+  if (report.mode != report.previous_mode) {
+    const bool bad = report.mode == Mode::kSafeStop || report.mode == Mode::kFault;
+    spdlog::log(bad ? spdlog::level::warn : spdlog::level::info, "mode {} -> {}: {}",
+                Name(report.previous_mode), Name(report.mode), Name(report.cause));
+  }
+  if (report.engagement_refused) {
+    spdlog::warn("engagement refused: {}", Name(report.fault));
+  }
+
+  std::uint64_t n = 0;
+  for (std::size_t i = 0; i < kRxFaults; ++i) {
+    const auto fault = static_cast<RxFault>(i);
+    if (rx_faults_[i].Tell(loop.monitor().count(fault), now, n)) {
+      spdlog::warn("{} refused: {} ({} since start)", n == 1 ? "frame" : fmt::format("{} frames", n),
+                   Name(fault), loop.monitor().count(fault));
+    }
+  }
+  if (lost_.Tell(loop.monitor().lost(), now, n)) {
+    spdlog::warn("frames lost on the bus: {}", n);
+  }
+  if (rejected_lists_.Tell(loop.obstacles().rejected(), now, n)) {
+    spdlog::warn("obstacle lists that did not fit their objects: {}", n);
+  }
+  if (solver_failures_.Tell(report.solver_failures, now, n)) {
+    spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.fault));
+  }
+  if (deadline_misses_.Tell(report.deadline_misses, now, n)) {
+    spdlog::warn("deadlines missed: {}", n);
+  }
+  if (trigger == Trigger::kTimer && report.mode != Mode::kInit) {
+    ++timer_cycles_;
+  }
+  if (late_states_.Tell(timer_cycles_, now, n)) {
+    spdlog::warn("cycles without a new vehicle state: {}", n);
+  }
+}
+
+void EventLog::Dropped(std::uint64_t total, Time now) {
+  std::uint64_t n = 0;
+  if (dropped_.Tell(total, now, n)) {
+    spdlog::warn("receive buffer full: {} frames dropped by the kernel", n);
+  }
+}
+
+void EventLog::QueueFull(std::uint64_t total, Time now) {
+  std::uint64_t n = 0;
+  if (queue_full_.Tell(total, now, n)) {
+    spdlog::warn("transmit queue full: {} frames not sent", n);
+  }
+}
+
+Notifier::Notifier() {
+  std::uint64_t microseconds = 0;
+  if (sd_watchdog_enabled(0, &microseconds) > 0) {
+    watchdog_period_ = std::chrono::microseconds(microseconds);
+  }
+}
+
+void Notifier::Ready() {
+  sd_notify(0, "READY=1");
+}
+
+void Notifier::Stopping() {
+  sd_notify(0, "STOPPING=1");
+}
+
+void Notifier::Cycle(const CycleReport& report, Time now) {
+  if (watchdog_period_ > 0s && now - last_watchdog_ >= watchdog_period_ / 4) {
+    last_watchdog_ = now;
+    sd_notify(0, "WATCHDOG=1");
+  }
+  const bool changed = report.mode != mode_ || report.fault != fault_;
+  if (told_ && !changed && now - last_status_ < 1s) {
+    return;
+  }
+  told_ = true;
+  last_status_ = now;
+  mode_ = report.mode;
+  fault_ = report.fault;
+  sd_notify(0, fmt::format("STATUS={}; {}; {} cycles, {} deadline misses", Name(mode_), Name(fault_),
+                           report.cycles, report.deadline_misses)
+                   .c_str());
+}
+
+std::string_view Name(dbc::FaultCode fault) {
+  switch (fault) {
+    case dbc::FaultCode::kNone:
+      return "no fault";
+    case dbc::FaultCode::kStateStale:
+      return "vehicle state stale";
+    case dbc::FaultCode::kStateInvalid:
+      return "vehicle state refused";
+    case dbc::FaultCode::kObstaclesStale:
+      return "obstacles stale";
+    case dbc::FaultCode::kDriverRequestStale:
+      return "driver request stale";
+    case dbc::FaultCode::kSolverInfeasible:
+      return "problem infeasible";
+    case dbc::FaultCode::kSolverIterationLimit:
+      return "solver at its iteration limit";
+    case dbc::FaultCode::kSolverNumericalFailure:
+      return "solver failed numerically";
+    case dbc::FaultCode::kPlanExhausted:
+      return "plan exhausted";
+    case dbc::FaultCode::kRouteEnd:
+      return "end of route";
+    case dbc::FaultCode::kOffRoute:
+      return "not on the route or too slow";
+    case dbc::FaultCode::kBusDown:
+      return "bus down";
+    case dbc::FaultCode::kInternalError:
+      return "internal error";
+  }
+  return "?";
+}
+
+}  // namespace lpvmpcd

@@ -1,0 +1,68 @@
+// What the daemon says: a line on stderr for each event, at most one a second for events that come in
+// numbers, and the mode to the service manager.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "daemon/control_loop.hpp"
+#include "daemon/time.hpp"
+
+namespace lpvmpcd {
+
+// Sets up the log on stderr: with time and level on a terminal; with the journal's "<6>" priorities where
+// systemd reads it. `level`: "debug", "info", "warning" or "error".
+void OpenLog(const std::string& level);
+
+// Says how often something has happened, at most once a second.
+class EventCount {
+ public:
+  // `total`: how often it has happened since start. True: `news` of it have not been told yet, and it is
+  // time.
+  [[nodiscard]] bool Tell(std::uint64_t total, Time now, std::uint64_t& news);
+
+ private:
+  std::uint64_t told_ = 0;
+  Time last_{};
+};
+
+class EventLog {
+ public:
+  // After a cycle: changes of mode, refused engagements, refused frames, failed solves, missed deadlines.
+  void Cycle(const ControlLoop& loop, Trigger trigger, Time now);
+  // The kernel's count of frames lost because the receive buffer was full.
+  void Dropped(std::uint64_t total, Time now);
+  void QueueFull(std::uint64_t total, Time now);
+
+ private:
+  std::array<EventCount, kRxFaults> rx_faults_;
+  EventCount lost_, rejected_lists_, solver_failures_, deadline_misses_, late_states_, dropped_, queue_full_;
+  std::uint64_t timer_cycles_ = 0;
+};
+
+// Tells the service manager (systemd) how the daemon is. Without one, nothing happens.
+class Notifier {
+ public:
+  Notifier();
+
+  void Ready();
+  void Stopping();
+  // Mode and fault: at once when they change, otherwise once a second; and the watchdog's food if it asks for
+  // it.
+  void Cycle(const CycleReport& report, Time now);
+
+ private:
+  Time watchdog_period_{};  // 0: no watchdog
+  Time last_watchdog_{};
+  Time last_status_{};
+  Mode mode_ = Mode::kInit;
+  dbc::FaultCode fault_ = dbc::FaultCode::kNone;
+  bool told_ = false;
+};
+
+// Text of a fault code for people.
+[[nodiscard]] std::string_view Name(dbc::FaultCode fault);
+
+}  // namespace lpvmpcd

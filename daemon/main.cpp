@@ -1,0 +1,63 @@
+// lpvmpcd: steers a vehicle along a route, over CAN.
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "daemon/assembly.hpp"
+#include "daemon/config.hpp"
+#include "daemon/event_log.hpp"
+#include "daemon/service.hpp"
+
+namespace {
+
+constexpr int kRunTimeError = 1;
+constexpr int kUsageError = 2;
+
+int Fail(const std::exception& error, int status) {
+  std::cerr << "lpvmpcd: " << error.what() << '\n';
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("lpvmpcd: steers a vehicle along a route, over CAN");
+  std::string file, interface, controller;
+  bool check = false, lockstep = false;
+  app.add_option("--config", file, "configuration in TOML")->required();
+  app.add_option("--interface", interface, "CAN interface, instead of the configuration's");
+  app.add_option("--controller", controller, "lpv or lpv-standard, instead of the configuration's");
+  app.add_flag("--lockstep", lockstep, "time by the vehicle's counter, as lpvmpc-sim --lockstep wants it");
+  app.add_flag("--check-config", check,
+               "read the configuration and all that it names, say what it is, and end");
+  app.set_version_flag("--version", "lpvmpcd " LPVMPC_VERSION);
+  std::optional<lpvmpcd::Config> config;
+  std::optional<lpvmpcd::Assembly> assembly;
+  try {
+    app.parse(argc, argv);
+    config = lpvmpcd::LoadConfig(file);
+    if (!interface.empty()) config->service.interface = interface;
+    if (!controller.empty()) lpvmpcd::SelectController(*config, controller);
+    config->service.lockstep = config->service.lockstep || lockstep;
+    assembly.emplace(*config, lpvmpcd::MonotonicNow);
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error) : Fail(error, kUsageError);
+  } catch (const std::exception& error) {
+    return Fail(error, kUsageError);
+  }
+  if (check) {
+    std::cout << "interface " << config->service.interface << ", controller "
+              << lpvmpcd::ControllerName(*config) << ", horizon " << config->mpc.horizon << ", period "
+              << config->mpc.t_s << " s, route " << config->route.string() << " with "
+              << assembly->reference().size() << " points\n";
+    return 0;
+  }
+  try {
+    lpvmpcd::OpenLog(config->log_level);
+    lpvmpcd::Service service(config->service, assembly->loop());
+    service.Run();
+    return 0;
+  } catch (const std::exception& error) {
+    return Fail(error, kRunTimeError);
+  }
+}

@@ -1,0 +1,68 @@
+// The shell about the control loop: waits for frames, the timer and signals, and has the only clocks of the
+// daemon.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "can/socket.hpp"
+#include "daemon/control_loop.hpp"
+#include "daemon/event_log.hpp"
+#include "daemon/file_descriptor.hpp"
+#include "daemon/time.hpp"
+
+namespace lpvmpcd {
+
+struct ServiceSettings {
+  std::string interface;
+  Time period = std::chrono::milliseconds(50);   // of the cycles that the timer starts
+  Time timeout = std::chrono::milliseconds(75);  // after a state, before the timer starts one
+  // Time is the number of cycles times the period, so that a run with a plant that waits for its answers is
+  // repeatable to the bit, however fast. The timer is a last resort then (kLockstepTimeout), and no cycle
+  // runs before the first state.
+  bool lockstep = false;
+};
+
+inline constexpr Time kLockstepTimeout = std::chrono::seconds(2);
+
+// Time by CLOCK_MONOTONIC.
+[[nodiscard]] Time MonotonicNow();
+
+class Service {
+ public:
+  // Opens the interface and blocks SIGTERM and SIGINT. Throws std::runtime_error: no such interface, or a
+  // system call failed. `loop` must outlive the service.
+  Service(const ServiceSettings& settings, ControlLoop& loop);
+
+  // Until SIGTERM or SIGINT; then a last pair of commands, not enabled, is sent. An interface that goes down
+  // or away is waited for.
+  void Run();
+
+ private:
+  [[nodiscard]] Time Now() const;
+  [[nodiscard]] Time Received(const can::Frame& frame) const;
+  void ReadSocket();
+  void RunCycle(Trigger trigger);
+  void Send(std::span<const can::Frame> frames);
+  void Arm(Trigger last);
+  void BusDown(const char* why);
+  void BusUp();
+  void Retry();
+
+  ServiceSettings settings_;
+  ControlLoop* loop_;
+  can::Socket socket_;
+  FileDescriptor signals_;
+  FileDescriptor timer_;
+  FileDescriptor retry_timer_;
+  FileDescriptor epoll_;
+  EventLog log_;
+  Notifier notifier_;
+  bool bus_up_ = true;
+  int unsent_cycles_ = 0;  // in a row
+  std::uint64_t queue_full_ = 0;
+  std::int64_t cycles_ = 0;
+};
+
+}  // namespace lpvmpcd

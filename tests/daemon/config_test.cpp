@@ -1,0 +1,135 @@
+#include "daemon/config.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/toml_table.hpp"
+#include "daemon/assembly.hpp"
+#include "tests/support/temp_dir.hpp"
+
+namespace lpvmpcd {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class ConfigTest : public testing::Test {
+ protected:
+  test_support::TempDir folder_;
+
+  std::filesystem::path Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  Config Load(const std::string& text) const { return LoadConfig(Write("daemon.toml", text)); }
+  // The error of a configuration that must be refused.
+  std::string Error(const std::string& text) const {
+    try {
+      static_cast<void>(Load(text));
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "accepted: " << text;
+    return "";
+  }
+};
+
+const std::string kRoute = "[route]\nfile = \"route.toml\"\n";
+
+TEST_F(ConfigTest, RouteIsAllThatIsRequiredAndItsPathIsRelativeToTheFile) {
+  const Config config = Load(kRoute);
+  EXPECT_EQ(config.route, folder_ / "route.toml");
+  EXPECT_EQ(config.service.interface, "can0");
+  EXPECT_EQ(config.service.timeout, FromSeconds(0.075));
+  EXPECT_EQ(ControllerName(config), "lpv");
+  EXPECT_THAT(Error(""), HasSubstr("file"));
+}
+
+TEST_F(ConfigTest, LimitsHoldForTheProblemAndForTheLimiter) {
+  const Config config = Load(kRoute + "[limits]\nmax_steering = 0.3\nmin_acceleration = -4\n");
+  EXPECT_EQ(config.loop.limits.max_steering, 0.3);
+  EXPECT_EQ(config.mpc.u_max[control::kDelta], 0.3);
+  EXPECT_EQ(config.mpc.u_min, control::Input(-0.3, -4.0));
+  EXPECT_EQ(config.loop.limits.max_acceleration, config.mpc.u_max[control::kAcceleration]);
+  EXPECT_EQ(config.loop.limits.max_steering_step, config.mpc.rate_max[control::kDelta]);
+}
+
+TEST_F(ConfigTest, PeriodHoldsForBusReferenceAndController) {
+  const Config config = Load(kRoute + "[cycle]\nperiod = 0.02\n");
+  EXPECT_EQ(config.mpc.t_s, 0.02);
+  EXPECT_EQ(config.loop.period, FromSeconds(0.02));
+  EXPECT_EQ(config.service.timeout, FromSeconds(0.03));
+}
+
+TEST_F(ConfigTest, LastWeightsAreThoseOfTheOtherStepsUnlessGiven) {
+  EXPECT_EQ(Load(kRoute + "[controller]\nQ = [1, 2, 3, 4, 5, 6]\n").mpc.P[5], 6.0);
+  EXPECT_EQ(Load(kRoute + "[controller]\nP = [1, 2, 3, 4, 5, 6]\n").mpc.P[1], 2.0);
+}
+
+TEST_F(ConfigTest, ControllerCanBeChosen) {
+  Config config = Load(kRoute + "[controller]\nkind = \"lpv-standard\"\n");
+  EXPECT_EQ(ControllerName(config), "lpv-standard");
+  EXPECT_FALSE(config.mpc.trust_region);
+  SelectController(config, "lpv");
+  EXPECT_TRUE(config.mpc.trust_region);
+  EXPECT_THROW(SelectController(config, "pid"), std::invalid_argument);
+}
+
+TEST_F(ConfigTest, WrongValueNamesFileLineKeyValueAndWhatIsAllowed) {
+  const std::string prefix = (folder_ / "daemon.toml").string() + ":4: ";
+  std::string error = Error(kRoute + "[cycle]\nperiod = 7\n");
+  EXPECT_THAT(error, StartsWith(prefix));
+  EXPECT_THAT(error, HasSubstr("period"));
+  EXPECT_THAT(error, HasSubstr("7"));
+  EXPECT_THAT(error, HasSubstr("0.005"));
+  EXPECT_THAT(Error(kRoute + "[controller]\nhorizon = \"long\"\n"), StartsWith(prefix));
+  EXPECT_THAT(Error(kRoute + "[controller]\nR = [0.1]\n"), StartsWith(prefix));
+  EXPECT_THAT(Error(kRoute + "[controller]\nR = [0.1, 0]\n"), StartsWith(prefix));
+  EXPECT_THAT(Error(kRoute + "[controller]\nkind = \"pid\"\n"), HasSubstr("lpv-standard"));
+  EXPECT_THAT(Error(kRoute + "[controller]\nhorizn = 8\n"), HasSubstr("horizn"));
+  EXPECT_THAT(Error(kRoute + "[contoller]\nhorizon = 8\n"), HasSubstr("contoller"));
+}
+
+TEST_F(ConfigTest, ValuesThatContradictEachOtherAreRefused) {
+  EXPECT_THAT(Error(kRoute + "[cycle]\ntimeout = 0.01\n"), HasSubstr("timeout"));
+  EXPECT_THAT(Error(kRoute + "[controller]\nz_max = [0, 0, 0, 0, 0, 0]\n"), HasSubstr("z_max"));
+}
+
+TEST_F(ConfigTest, AssemblyNamesTheFileThatIsMissingOrWrong) {
+  const auto error_of = [](const Config& config) -> std::string {
+    try {
+      const Assembly assembly(config, [] { return Time{}; });
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Config config = Load(kRoute);
+  EXPECT_THAT(error_of(config), HasSubstr("route.toml"));
+
+  Write("route.toml",
+        "[route]\nstart = {X = 0.0, Y = 0.0, psi = 0.0}\nspeed = 10.0\npieces = [{kind = \"straight\", "
+        "length = 100.0}]\n"
+        "[road]\nleft = 4.0\nright = 4.0\n");
+  EXPECT_EQ(error_of(config), "");
+
+  config.dbc = folder_ / "none.dbc";
+  EXPECT_THAT(error_of(config), HasSubstr("none.dbc"));
+  config.dbc = Write("wrong.dbc", "VERSION \"1\"\nBO_ 256 VehiclePose 8 Vehicle\n");
+  EXPECT_THAT(error_of(config), HasSubstr("wrong.dbc:2:"));
+  config.dbc = Write("empty.dbc", "VERSION \"1\"\n");
+  EXPECT_THAT(error_of(config), HasSubstr("empty.dbc: "));
+
+  config.dbc.clear();
+  config.mpc.horizon = 100;
+  EXPECT_EQ(error_of(config), "");
+  Write("route.toml",
+        "[route]\nstart = {X = 0.0, Y = 0.0, psi = 0.0}\nspeed = 10.0\npieces = [{kind = \"straight\", "
+        "length = 10.0}]\n"
+        "[road]\nleft = 4.0\nright = 4.0\n");
+  EXPECT_THAT(error_of(config), HasSubstr("shorter than the horizon"));
+}
+
+}  // namespace
+}  // namespace lpvmpcd
