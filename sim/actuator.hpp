@@ -1,0 +1,39 @@
+// An actuator: pure delay of whole control cycles, then a first-order lag with limited rate and range.
+//
+//   ẋ = clamp((command − x) / τ, ±rate),   command clamped to the range; τ = 0: x moves at `rate`, or jumps
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace sim {
+
+struct ActuatorParameters {
+  double time_constant = 0.0;                             // τ >= 0 [s]
+  double rate = std::numeric_limits<double>::infinity();  // > 0 [unit/s]
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  int delay_cycles = 0;  // >= 0
+};
+
+class Actuator {
+ public:
+  Actuator(const ActuatorParameters& parameters, double initial);
+
+  // Once a cycle.
+  void Command(double value);
+  // Exact for a constant command, whatever dt >= 0 [s] is.
+  void Advance(double dt);
+
+  [[nodiscard]] double value() const { return value_; }
+
+ private:
+  ActuatorParameters parameters_;
+  std::vector<double> delayed_;  // ring of the commands on their way
+  std::size_t next_ = 0;
+  double target_;
+  double value_;
+};
+
+}  // namespace sim

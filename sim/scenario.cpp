@@ -1,0 +1,195 @@
+#include "sim/scenario.hpp"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+#include <string_view>
+
+#include "config/route_file.hpp"
+#include "config/toml_table.hpp"
+
+namespace sim {
+namespace {
+
+using config::Range;
+using config::TomlTable;
+
+constexpr Range<double> kMapX{kMapMinX, kMapMaxX};
+constexpr Range<double> kMapY{kMapMinY, kMapMaxY};
+constexpr Range<double> kLateral{-50.0, 50.0};   // [m]
+constexpr Range<double> kHeading{-6.3, 6.3};     // [rad]
+constexpr Range<double> kSemiAxis{0.05, 10.0};   // what ObstacleObject holds [m]
+constexpr Range<double> kVelocity{-60.0, 60.0};  // what ObstacleObject holds [m/s]
+constexpr Range<double> kFactor{0.2, 5.0};
+constexpr Range<double> kTime{0.0, 1e5};  // [s]
+constexpr Range<int> kObjectId{0, 15};
+
+// End stops of the actuators: what a vehicle can do, wider than what a controller asks of it.
+constexpr double kSteeringStop = 0.65;          // [rad]
+constexpr double kHardestBraking = -9.81;       // [m/s²]
+constexpr double kStrongestAcceleration = 4.0;  // [m/s²]
+
+const std::array<std::string_view, 2> kByMap{"X", "Y"};
+
+std::vector<std::string> SideNames() {
+  return {"unknown", "left", "right"};
+}  // order of control::PassingSide
+
+void PlaceInMap(const TomlTable& table, control::Obstacle& obstacle) {
+  if (table.Has("lateral")) throw table.Error("lateral", "must not be given without s");
+  obstacle.X = table.Number("X", kMapX, "m");
+  obstacle.Y = table.Number("Y", kMapY, "m");
+}
+
+void PlaceOnRoute(const TomlTable& table, const control::Route& route, control::Obstacle& obstacle) {
+  for (const std::string_view key : kByMap) {
+    if (table.Has(key)) throw table.Error(key, "must not be given along with s");
+  }
+  const control::RoutePoint point = route.At(table.Number("s", {0.0, route.length()}, "m"));
+  const double lateral = table.NumberOr("lateral", 0.0, kLateral, "m");
+  obstacle.X = point.X - lateral * std::sin(point.psi);
+  obstacle.Y = point.Y + lateral * std::cos(point.psi);
+  obstacle.heading = control::WrapAngle(obstacle.heading + point.psi);
+  const auto check = [&](const char* axis, double value, const Range<double>& range) {
+    if (value >= range.min && value <= range.max) return;
+    throw table.Error("s", fmt::format("puts the obstacle at {} = {:.1f}, outside [{}, {}] m", axis, value,
+                                       range.min, range.max));
+  };
+  check("X", obstacle.X, kMapX);
+  check("Y", obstacle.Y, kMapY);
+}
+
+control::Obstacle ReadObstacle(const TomlTable& table, const control::Route& route) {
+  control::Obstacle obstacle;
+  obstacle.id = table.Integer("id", kObjectId);
+  obstacle.r_x = table.Number("r_x", kSemiAxis, "m");
+  obstacle.r_y = table.Number("r_y", kSemiAxis, "m");
+  obstacle.heading = control::WrapAngle(table.NumberOr("heading", 0.0, kHeading, "rad"));
+  obstacle.velocity_X = table.NumberOr("velocity_X", 0.0, kVelocity, "m/s");
+  obstacle.velocity_Y = table.NumberOr("velocity_Y", 0.0, kVelocity, "m/s");
+  obstacle.side = static_cast<control::PassingSide>(table.ChoiceOr("side", 0, SideNames()));
+  if (table.Has("s")) {
+    PlaceOnRoute(table, route, obstacle);
+  } else {
+    PlaceInMap(table, obstacle);
+  }
+  return obstacle;
+}
+
+std::vector<control::Obstacle> ReadObstacles(const TomlTable& file, const control::Route& route) {
+  std::vector<control::Obstacle> obstacles;
+  std::set<int> ids;
+  for (const TomlTable& table : file.Tables("obstacle")) {
+    obstacles.push_back(ReadObstacle(table, route));
+    if (!ids.insert(obstacles.back().id).second) throw table.Error("id", "is that of an obstacle before");
+    if (obstacles.size() > static_cast<std::size_t>(kObjectId.max)) {  // all that ObstacleList can count
+      throw table.Error("id", fmt::format("is one obstacle more than {}", kObjectId.max));
+    }
+  }
+  return obstacles;
+}
+
+void ReadVehicle(const TomlTable& table, Scenario& scenario) {
+  control::VehicleParameters& vehicle = scenario.plant.vehicle;
+  const double mass_factor = table.NumberOr("mass_factor", 1.0, kFactor);
+  vehicle.m *= mass_factor;
+  vehicle.I_z *= mass_factor;
+  vehicle.C_alpha_f *= table.NumberOr("front_stiffness_factor", 1.0, kFactor);
+  vehicle.C_alpha_r *= table.NumberOr("rear_stiffness_factor", 1.0, kFactor);
+  scenario.plant.tyre = static_cast<Tyre>(table.ChoiceOr("tyre", 0, {"linear", "saturating"}));
+  scenario.plant.mu = table.NumberOr("mu", scenario.plant.mu, {0.05, 2.0});
+
+  const auto actuator = [&table](const std::string& name, double min, double max, const char* rate_unit) {
+    ActuatorParameters parameters{.min = min, .max = max};
+    parameters.time_constant = table.NumberOr(name + "_lag", 0.0, {0.0, 10.0}, "s");
+    parameters.rate = table.NumberOr(name + "_rate", parameters.rate, {1e-3, 1e3}, rate_unit);
+    parameters.delay_cycles = table.IntegerOr("delay_cycles", 0, {0, 100});
+    return parameters;
+  };
+  scenario.steering = actuator("steering", -kSteeringStop, kSteeringStop, "rad/s");
+  scenario.acceleration = actuator("acceleration", kHardestBraking, kStrongestAcceleration, "m/s^3");
+}
+
+SensorParameters ReadSensors(const TomlTable& table) {
+  return {.position = table.NumberOr("position", 0.0, {0.0, 10.0}, "m"),
+          .speed = table.NumberOr("speed", 0.0, {0.0, 10.0}, "m/s"),
+          .heading = table.NumberOr("heading", 0.0, {0.0, 1.0}, "rad"),
+          .yaw_rate = table.NumberOr("yaw_rate", 0.0, {0.0, 1.0}, "rad/s")};
+}
+
+DriverPlan ReadDriver(const TomlTable& table) {
+  const auto time = [&table](const char* key) -> std::optional<double> {
+    if (!table.Has(key)) return std::nullopt;
+    return table.Number(key, kTime, "s");
+  };
+  return {.engage_at = time("engage_at").value_or(0.0),
+          .disengage_at = time("disengage_at"),
+          .brake_at = time("brake_at"),
+          .steering_override_at = time("steering_override_at")};
+}
+
+Expectations ReadExpectations(const TomlTable& table) {
+  const auto number = [&table](const char* key) -> std::optional<double> {
+    if (!table.Has(key)) return std::nullopt;
+    return table.Number(key, {-1e3, 1e3}, "m");
+  };
+  const auto count = [&table](const char* key) -> std::optional<int> {
+    if (!table.Has(key)) return std::nullopt;
+    return table.Integer(key, {0, 1'000'000});
+  };
+  return {.completed = table.BooleanOr("completed", true),
+          .max_infeasible_steps = count("max_infeasible_steps"),
+          .min_clearance_m = number("min_clearance_m"),
+          .min_road_margin_m = number("min_road_margin_m"),
+          .max_rms_lateral_error_m = number("max_rms_lateral_error_m"),
+          .max_deadline_misses = count("max_deadline_misses")};
+}
+
+// On the route in steady cornering: the vehicle's velocity, not its axis, points along the road. Linear
+// single-track theory, as the vehicle's own tyres are at small slip.
+void ReadInitial(const TomlTable& table, Scenario& scenario) {
+  const double along = table.NumberOr("along", 0.0, {0.0, scenario.route.length()}, "m");
+  const double lateral = table.NumberOr("lateral", 0.0, kLateral, "m");
+  const double heading = table.NumberOr("heading", 0.0, {-1.0, 1.0}, "rad");
+  const control::RoutePoint point = scenario.route.At(along);
+  const double speed = table.NumberOr("speed", point.speed, {0.0, 60.0}, "m/s");
+
+  const control::VehicleParameters& v = scenario.plant.vehicle;
+  const double wheelbase = v.l_f + v.l_r;
+  const double rear_slip = v.m * v.l_f * speed * speed * point.curvature / (2.0 * v.C_alpha_r * wheelbase);
+  const double front_slip = v.m * v.l_r * speed * speed * point.curvature / (2.0 * v.C_alpha_f * wheelbase);
+  const double sideslip = v.l_r * point.curvature - rear_slip;
+
+  control::State& z = scenario.initial;
+  z[control::kX] = point.X - lateral * std::sin(point.psi);
+  z[control::kY] = point.Y + lateral * std::cos(point.psi);
+  z[control::kUpsilon] = speed;
+  z[control::kNu] = speed * sideslip;
+  z[control::kPsi] = control::WrapAngle(point.psi - sideslip + heading);
+  z[control::kOmega] = speed * point.curvature;
+  scenario.initial_delta = wheelbase * point.curvature + front_slip - rear_slip;
+}
+
+}  // namespace
+
+Scenario LoadScenario(const std::filesystem::path& file) {
+  const TomlTable table = TomlTable::Read(file);
+  const config::RouteFile route = config::LoadRoute(table.Path("route"));
+  Scenario scenario(route.route, route.road);
+  scenario.name = table.Text("name");
+  scenario.description = table.TextOr("description", "");
+  scenario.seed = static_cast<std::uint64_t>(table.IntegerOr("seed", 1, {.min = 0}));
+  if (table.Has("duration")) scenario.duration = table.Number("duration", {0.1, 1e5}, "s");
+  if (table.Has("daemon_config")) scenario.daemon_config = table.Path("daemon_config");
+  ReadVehicle(table.Table("vehicle"), scenario);
+  ReadInitial(table.Table("initial"), scenario);
+  scenario.obstacles = ReadObstacles(table, scenario.route);
+  scenario.sensors = ReadSensors(table.Table("sensors"));
+  scenario.driver = ReadDriver(table.Table("driver"));
+  scenario.expect = ReadExpectations(table.Table("expect"));
+  table.RefuseUnknownKeys();
+  return scenario;
+}
+
+}  // namespace sim

@@ -1,0 +1,114 @@
+// One simulated drive: the road, the vehicle and how it differs from the controller's model, the obstacles,
+// the driver, and the expectations that decide whether the drive passed. A TOML file; only `name` and `route`
+// are required.
+//
+//   name = "demo"                     # one line
+//   description = "..."
+//   seed = 1                          # of the sensors' noise
+//   duration = 60.0                   # [s]; without it the drive goes on to the end of the route
+//   route = "route.toml"              # config/route_file.hpp; paths are relative to this file
+//   daemon_config = "lpvmpcd.toml"    # for the tools that start the daemon
+//   [initial]                         # place relative to the route
+//   along = 0.0                       # [m]
+//   lateral = 0.0                     # left positive [m]
+//   heading = 0.0                     # [rad]
+//   speed = 12.0                      # default: the route's target speed there [m/s]
+//   [[obstacle]]
+//   id = 1                            # 0..15, each once
+//   X = 100.0                         # centre in the map [m], inside the map's bounds below
+//   Y = 20.0
+//   s = 100.0                         # or: along the route [m]
+//   lateral = -0.3                    # and beside it, left positive [m]
+//   r_x = 1.0                         # semi-axis along the heading [m]
+//   r_y = 1.0
+//   heading = 0.0                     # in the map, or with `s` relative to the route [rad]
+//   velocity_X = 0.0                  # in the map [m/s]
+//   velocity_Y = 0.0
+//   side = "left"                     # on which it is to be passed: left, right, unknown
+//   [vehicle]                         # deviations from control/vehicle_parameters.hpp
+//   mass_factor = 1.0                 # of mass and yaw inertia
+//   front_stiffness_factor = 1.0
+//   rear_stiffness_factor = 1.0
+//   tyre = "linear"                   # or saturating
+//   mu = 0.9
+//   steering_lag = 0.0                # time constants [s]
+//   acceleration_lag = 0.0
+//   steering_rate = 0.7               # default: unlimited [rad/s]
+//   acceleration_rate = 20.0          # default: unlimited [m/s³]
+//   delay_cycles = 0                  # from a command to the actuators
+//   [sensors]                         # standard deviations
+//   position = 0.0                    # [m]
+//   speed = 0.0                       # [m/s]
+//   heading = 0.0                     # [rad]
+//   yaw_rate = 0.0                    # [rad/s]
+//   [driver]                          # times since the start [s]
+//   engage_at = 0.0
+//   disengage_at = 30.0               # never, where the key is missing
+//   brake_at = 30.0
+//   steering_override_at = 30.0
+//   [expect]                          # see sim/summary.hpp; what is missing is not judged, but for
+//   `completed` completed = true max_infeasible_steps = 0 min_clearance_m = 0.0 min_road_margin_m = 0.0
+//   max_rms_lateral_error_m = 0.5
+//   max_deadline_misses = 0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "control/route.hpp"
+#include "control/types.hpp"
+#include "sim/actuator.hpp"
+#include "sim/driver.hpp"
+#include "sim/plant.hpp"
+#include "sim/sensors.hpp"
+
+namespace sim {
+
+// Bounds of the map (paper, tab:MPCPar) [m].
+inline constexpr double kMapMinX = -1.0;
+inline constexpr double kMapMaxX = 1500.0;
+inline constexpr double kMapMinY = -600.0;
+inline constexpr double kMapMaxY = 800.0;
+
+inline constexpr double kCycleTime = 0.05;  // t_s (paper, tab:VarPar) [s]
+
+struct Expectations {
+  bool completed = true;
+  std::optional<int> max_infeasible_steps;
+  std::optional<double> min_clearance_m;
+  std::optional<double> min_road_margin_m;
+  std::optional<double> max_rms_lateral_error_m;
+  std::optional<int> max_deadline_misses;
+};
+
+struct Scenario {
+  Scenario(control::Route path, const control::RoadBounds& bounds) : route(std::move(path)), road(bounds) {}
+
+  std::string name;
+  std::string description;
+  std::uint64_t seed = 1;
+  std::optional<double> duration;
+  std::filesystem::path daemon_config;  // empty if the file names none
+
+  control::Route route;
+  control::RoadBounds road;
+  std::vector<control::Obstacle> obstacles;  // as of the start
+
+  PlantParameters plant;
+  ActuatorParameters steering;
+  ActuatorParameters acceleration;
+  SensorParameters sensors;
+  control::State initial = control::State::Zero();
+  double initial_delta = 0.0;  // that keeps the vehicle on the route's curvature at the start
+  DriverPlan driver;
+  Expectations expect;
+};
+
+// Throws config::ConfigError that names file, line, key, value and what is allowed.
+[[nodiscard]] Scenario LoadScenario(const std::filesystem::path& file);
+
+}  // namespace sim

@@ -1,0 +1,33 @@
+// What the vehicle measures of its own motion: the truth plus Gaussian noise. Quantisation is the bus's own.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+#include "control/types.hpp"
+
+namespace sim {
+
+// Standard deviations, >= 0.
+struct SensorParameters {
+  double position = 0.0;  // of X and of Y [m]
+  double speed = 0.0;     // of υ and of ν [m/s]
+  double heading = 0.0;   // ψ [rad]
+  double yaw_rate = 0.0;  // ω [rad/s]
+};
+
+class Sensors {
+ public:
+  Sensors(const SensorParameters& parameters, std::uint64_t seed) : parameters_(parameters), random_(seed) {}
+
+  // The same seed gives the same noise with any standard library.
+  [[nodiscard]] control::State Measure(const control::State& truth);
+
+ private:
+  double Normal();
+
+  SensorParameters parameters_;
+  std::mt19937_64 random_;
+};
+
+}  // namespace sim

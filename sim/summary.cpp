@@ -1,0 +1,175 @@
+#include "sim/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/ellipse_distance.hpp"
+
+namespace sim {
+namespace {
+
+constexpr double kStandstillSpeed = 0.05;  // [m/s]
+constexpr int kStandstillCycles = 40;      // for good, not on the way through
+constexpr int kMissesModulus = 1024;       // of ControllerStatus
+
+void KeepSmaller(std::optional<double>& smallest, double value) {
+  smallest = std::min(smallest.value_or(value), value);
+}
+
+// Nearest-rank percentile of a sorted list.
+int Percentile(const std::vector<int>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
+}
+
+class Judge {
+ public:
+  explicit Judge(std::vector<std::string>& failed) : failed_(&failed) {}
+
+  template <typename T>
+  void AtMost(const char* name, const T& value, const std::optional<T>& limit) {
+    if (limit && value > *limit) failed_->push_back(fmt::format("{} = {} is above {}", name, value, *limit));
+  }
+  void AtLeast(const char* name, const std::optional<double>& value, const std::optional<double>& limit) {
+    if (limit && value && *value < *limit)
+      failed_->push_back(fmt::format("{} = {:.4f} is below {}", name, *value, *limit));
+  }
+
+ private:
+  std::vector<std::string>* failed_;
+};
+
+nlohmann::json OrNull(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+std::string OrDash(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3f} m", *value) : "-";
+}
+
+}  // namespace
+
+void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
+  if (!vehicle.status_is_new()) return;
+  const dbc::ControllerStatus& status = vehicle.status();
+  if (status.mode == dbc::Mode::kActive) {
+    if (status.solver_status != dbc::SolverStatus::kSolved) ++summary_.infeasible_steps;
+    solve_times_us_.push_back(static_cast<int>(std::lround(status.solve_time * 1e6)));
+  }
+  if (last_misses_) {
+    summary_.deadline_misses += (status.deadline_misses - *last_misses_ + kMissesModulus) % kMissesModulus;
+  }
+  last_misses_ = status.deadline_misses;
+}
+
+void Recorder::RecordPlace(const VirtualVehicle& vehicle, double lateral) {
+  const control::State& z = vehicle.state();
+  for (const control::Obstacle& obstacle : vehicle.ObstaclesNow()) {
+    KeepSmaller(summary_.min_clearance_m, EllipseDistance(obstacle, z[control::kX], z[control::kY]));
+  }
+  KeepSmaller(summary_.min_road_margin_m,
+              std::min(scenario_->road.left - lateral, lateral - scenario_->road.right));
+  squared_lateral_ += lateral * lateral;
+}
+
+bool Recorder::EndReached(const VirtualVehicle& vehicle) const {
+  const bool route_end_told = engaged_ && vehicle.status().fault_code == dbc::FaultCode::kRouteEnd;
+  return route_end_told || arc_length_ >= scenario_->route.length() ||
+         (scenario_->duration && vehicle.time() + kCycleTime >= *scenario_->duration - 1e-9);
+}
+
+void Recorder::Record(const VirtualVehicle& vehicle) {
+  const control::State& z = vehicle.state();
+  if (!z.allFinite()) {
+    finished_ = true;
+    return;
+  }
+  const control::RouteProjection place = scenario_->route.Project({z[control::kX], z[control::kY]}, hint_);
+  hint_ = arc_length_ = place.s;
+  engaged_ = engaged_ || vehicle.mode() == dbc::Mode::kActive;
+  if (engaged_) {
+    ++summary_.steps;
+    RecordStatus(vehicle);
+    RecordPlace(vehicle, place.lateral);
+  }
+  standing_cycles_ = z.segment<2>(control::kUpsilon).norm() < kStandstillSpeed ? standing_cycles_ + 1 : 0;
+
+  if (EndReached(vehicle)) {
+    finished_ = true;
+    summary_.completed = engaged_ && (vehicle.mode() == dbc::Mode::kActive ||
+                                      vehicle.status().fault_code == dbc::FaultCode::kRouteEnd);
+  } else if (!scenario_->duration) {
+    const bool stands = standing_cycles_ >= kStandstillCycles && vehicle.mode() != dbc::Mode::kActive;
+    finished_ = stands || vehicle.time() > 2.0 * scenario_->route.duration() + 10.0;
+  }
+}
+
+Summary Recorder::Result() const {
+  Summary summary = summary_;
+  if (summary.steps > 0) {
+    summary.rms_lateral_error_m = std::sqrt(squared_lateral_ / static_cast<double>(summary.steps));
+  }
+  std::vector<int> sorted = solve_times_us_;
+  std::ranges::sort(sorted);
+  summary.solve_time_median_us = Percentile(sorted, 0.5);
+  summary.solve_time_p99_us = Percentile(sorted, 0.99);
+  summary.solve_time_max_us = Percentile(sorted, 1.0);
+
+  const Expectations& expect = scenario_->expect;
+  if (summary.completed != expect.completed) {
+    summary.failed_expectations.push_back(fmt::format("completed = {}", summary.completed));
+  }
+  Judge judge(summary.failed_expectations);
+  judge.AtMost("infeasible_steps", summary.infeasible_steps, expect.max_infeasible_steps);
+  judge.AtLeast("min_clearance_m", summary.min_clearance_m, expect.min_clearance_m);
+  judge.AtLeast("min_road_margin_m", summary.min_road_margin_m, expect.min_road_margin_m);
+  judge.AtMost("rms_lateral_error_m", summary.rms_lateral_error_m.value_or(0.0),
+               expect.max_rms_lateral_error_m);
+  judge.AtMost("deadline_misses", summary.deadline_misses, expect.max_deadline_misses);
+  return summary;
+}
+
+std::string ToJson(const Summary& summary) {
+  const nlohmann::ordered_json json{
+      {"completed", summary.completed},
+      {"steps", summary.steps},
+      {"infeasible_steps", summary.infeasible_steps},
+      {"min_clearance_m", OrNull(summary.min_clearance_m)},
+      {"min_road_margin_m", OrNull(summary.min_road_margin_m)},
+      {"rms_lateral_error_m", OrNull(summary.rms_lateral_error_m)},
+      {"solve_time_us",
+       {{"median", summary.solve_time_median_us},
+        {"p99", summary.solve_time_p99_us},
+        {"max", summary.solve_time_max_us}}},
+      {"deadline_misses", summary.deadline_misses},
+      {"passed", summary.passed()},
+      {"failed_expectations", summary.failed_expectations},
+  };
+  return json.dump(2) + "\n";
+}
+
+std::string ToText(const Summary& summary) {
+  std::string text;
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("{:<22}{}\n", name, value);
+  };
+  line("completed", summary.completed ? "yes" : "no");
+  line("steps", std::to_string(summary.steps));
+  line("infeasible steps", std::to_string(summary.infeasible_steps));
+  line("smallest clearance", OrDash(summary.min_clearance_m));
+  line("smallest road margin", OrDash(summary.min_road_margin_m));
+  line("RMS lateral error", OrDash(summary.rms_lateral_error_m));
+  line("solve time", fmt::format("{} us median, {} us p99, {} us max", summary.solve_time_median_us,
+                                 summary.solve_time_p99_us, summary.solve_time_max_us));
+  line("deadline misses", std::to_string(summary.deadline_misses));
+  line("result", summary.passed()
+                     ? "passed"
+                     : "FAILED: " + fmt::format("{}", fmt::join(summary.failed_expectations, "; ")));
+  return text;
+}
+
+}  // namespace sim

@@ -1,0 +1,154 @@
+#include "sim/virtual_vehicle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "dbc/e2e.hpp"
+
+namespace sim {
+namespace {
+
+dbc::PassingSide OnBus(control::PassingSide side) {
+  switch (side) {
+    case control::PassingSide::kLeft:
+      return dbc::PassingSide::kLeft;
+    case control::PassingSide::kRight:
+      return dbc::PassingSide::kRight;
+    case control::PassingSide::kUnknown:
+      break;
+  }
+  return dbc::PassingSide::kUnknown;
+}
+
+}  // namespace
+
+VirtualVehicle::VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& bus)
+    : bus_(&bus),
+      plant_(scenario.plant, scenario.initial),
+      steering_actuator_(scenario.steering, scenario.initial_delta),
+      acceleration_actuator_(scenario.acceleration, 0.0),
+      sensors_(scenario.sensors, scenario.seed),
+      driver_(scenario.driver),
+      obstacles_(scenario.obstacles) {
+  frames_.reserve(5 + 3 * obstacles_.size());
+}
+
+std::uint8_t VirtualVehicle::StateCounter() const {
+  return static_cast<std::uint8_t>(cycle_ % dbc::kCounterModulus);
+}
+
+void VirtualVehicle::Emit(const dbc::Message& message, std::uint8_t counter, can::Time now) {
+  dbc::RawMessage raw;
+  if (bus_->Encode(message, counter, raw) == dbc::EncodeStatus::kNotFinite) return;
+  can::Frame frame{.id = raw.id, .length = raw.length, .timestamp = now};
+  std::ranges::copy(raw.data, frame.data.begin());
+  frames_.push_back(frame);
+}
+
+void VirtualVehicle::EmitObstacles(can::Time now) {
+  const auto emit = [&](const dbc::Message& message) {
+    Emit(message, object_counter_, now);
+    object_counter_ = dbc::NextCounter(object_counter_);
+  };
+  for (const control::Obstacle& obstacle : ObstaclesNow()) {
+    const auto id = static_cast<std::uint8_t>(obstacle.id);
+    emit(dbc::ObstaclePosition{.object_id = id, .X = obstacle.X, .Y = obstacle.Y});
+    emit(dbc::ObstacleShape{.object_id = id,
+                            .semi_axis_x = obstacle.r_x,
+                            .semi_axis_y = obstacle.r_y,
+                            .heading = obstacle.heading,
+                            .passing_side = OnBus(obstacle.side)});
+    emit(dbc::ObstacleMotion{
+        .object_id = id, .velocity_X = obstacle.velocity_X, .velocity_Y = obstacle.velocity_Y});
+  }
+  Emit(dbc::ObstacleList{.count = static_cast<std::uint8_t>(obstacles_.size())}, list_counter_, now);
+  list_counter_ = dbc::NextCounter(list_counter_);
+}
+
+std::span<const can::Frame> VirtualVehicle::Sense(can::Time now) {
+  frames_.clear();
+  Emit(driver_.Request(time(), mode()), request_counter_, now);
+  request_counter_ = dbc::NextCounter(request_counter_);
+  EmitObstacles(now);
+
+  const control::State z = sensors_.Measure(plant_.state());
+  Emit(dbc::VehiclePose{.X = z[control::kX], .Y = z[control::kY]}, StateCounter(), now);
+  Emit(
+      dbc::VehicleMotion{.upsilon = z[control::kUpsilon], .nu = z[control::kNu], .omega = z[control::kOmega]},
+      StateCounter(), now);
+  Emit(dbc::VehicleFeedback{.psi = control::WrapAngle(z[control::kPsi]),
+                            .delta = steering_actuator_.value(),
+                            .acceleration = acceleration_actuator_.value()},
+       StateCounter(), now);
+  return frames_;
+}
+
+template <typename Command>
+void VirtualVehicle::Take(const Command& command, double value, Channel& channel) const {
+  channel.enable = command.enable;
+  channel.value = value;
+  channel.age = 0;
+  channel.answered = channel.answered || command.state_counter == StateCounter();
+}
+
+void VirtualVehicle::Receive(const can::Frame& frame) {
+  if (frame.kind != can::FrameKind::kData || frame.extended || frame.fd) return;
+  if (bus_->Find(frame.id) == nullptr) return;
+  if (bus_->Check(frame.id, frame.Payload()).verdict != dbc::E2eVerdict::kOk) {
+    ++rejected_frames_;
+    return;
+  }
+  const std::optional<dbc::Message> message = bus_->Decode(frame.id, frame.Payload());
+  if (!message) {
+    ++rejected_frames_;
+  } else if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+    Take(*steering, steering->delta, steering_);
+  } else if (const auto* acceleration = std::get_if<dbc::AccelerationCommand>(&*message)) {
+    Take(*acceleration, acceleration->acceleration, acceleration_);
+  } else if (const auto* status = std::get_if<dbc::ControllerStatus>(&*message)) {
+    status_ = *status;
+    status_is_new_ = true;
+    status_after_ = steering_.answered && acceleration_.answered;
+    heard_ = true;
+  }
+}
+
+void VirtualVehicle::Advance() {
+  if (obeyed_ && (steering_.age > 0 || acceleration_.age > 0)) ++missed_commands_;
+  obeyed_ = obeyed_ || (steering_.Obeyed() && acceleration_.Obeyed());
+  steering_actuator_.Command(steering_.Obeyed() ? steering_.value : steering_actuator_.value());
+  acceleration_actuator_.Command(acceleration_.Obeyed() ? acceleration_.value
+                                 : obeyed_              ? kDriverDeceleration
+                                                        : 0.0);
+
+  const auto steps = std::lround(kCycleTime / kIntegrationStep);
+  for (long i = 0; i < steps; ++i) {
+    const control::Input start = actuators();
+    steering_actuator_.Advance(0.5 * kIntegrationStep);
+    acceleration_actuator_.Advance(0.5 * kIntegrationStep);
+    const control::Input middle = actuators();
+    steering_actuator_.Advance(0.5 * kIntegrationStep);
+    acceleration_actuator_.Advance(0.5 * kIntegrationStep);
+    plant_.Step(start, middle, actuators(), kIntegrationStep);
+  }
+  ++cycle_;
+  for (Channel* channel : {&steering_, &acceleration_}) {
+    channel->age = std::min(channel->age + 1, kCommandLifetime);
+    channel->answered = false;
+  }
+  status_after_ = false;
+  status_is_new_ = false;
+}
+
+std::vector<control::Obstacle> VirtualVehicle::ObstaclesNow() const {
+  std::vector<control::Obstacle> obstacles = obstacles_;
+  for (control::Obstacle& obstacle : obstacles) {
+    obstacle.X += obstacle.velocity_X * time();
+    obstacle.Y += obstacle.velocity_Y * time();
+  }
+  return obstacles;
+}
+
+}  // namespace sim

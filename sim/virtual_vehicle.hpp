@@ -1,0 +1,118 @@
+// The vehicle, its sensors, its perception and its driver as the bus sees them: frames out, frames in, on
+// synthetic time that goes on by kCycleTime with every Advance().
+//
+//   sim::VirtualVehicle vehicle(scenario, bus);
+//   while (...) {
+//     for (const can::Frame& frame : vehicle.Sense(now)) Send(frame);
+//     ... vehicle.Receive(frame) of every frame that comes back, in lock step until vehicle.Answered() ...
+//     vehicle.Advance();
+//   }
+//
+// A command is obeyed while its message says Enable and it was renewed within the last kCommandLifetime
+// cycles. Else the driver holds the wheel where it is; the pedals are left alone before the controller was
+// first obeyed, and after that the driver brakes gently to a stop.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "can/frame.hpp"
+#include "dbc/vehicle_bus.hpp"
+#include "sim/actuator.hpp"
+#include "sim/driver.hpp"
+#include "sim/plant.hpp"
+#include "sim/scenario.hpp"
+#include "sim/sensors.hpp"
+
+namespace sim {
+
+inline constexpr int kCommandLifetime = 10;          // [cycles]
+inline constexpr double kDriverDeceleration = -2.0;  // of a driver who took over [m/s²]
+inline constexpr double kIntegrationStep = 1e-3;     // [s]
+
+class VirtualVehicle {
+ public:
+  // `bus` must outlive the vehicle. Throws std::runtime_error if the bus lacks a message.
+  VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& bus);
+
+  // The frames of one cycle, stamped `now`, once per cycle: DriverRequest, three of ObstacleObject for each
+  // obstacle, ObstacleList, then the state set: VehiclePose, VehicleMotion, VehicleFeedback. They stay until
+  // the next call. A message whose value is not finite is left out.
+  [[nodiscard]] std::span<const can::Frame> Sense(can::Time now);
+
+  // Takes a frame of the controller; one with a wrong CRC changes nothing, one of another sender neither.
+  void Receive(const can::Frame& frame);
+
+  // True once both commands that answer this cycle's state set have come, and a ControllerStatus after them.
+  [[nodiscard]] bool Answered() const {
+    return steering_.answered && acceleration_.answered && status_after_;
+  }
+
+  // Applies the commands for one cycle.
+  void Advance();
+
+  [[nodiscard]] double time() const {
+    return static_cast<double>(cycle_) * kCycleTime;
+  }                                                                             // since the start [s]
+  [[nodiscard]] const control::State& state() const { return plant_.state(); }  // the truth
+  [[nodiscard]] control::Input actuators() const {
+    return {steering_actuator_.value(), acceleration_actuator_.value()};
+  }
+  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;
+
+  // What the controller told last.
+  [[nodiscard]] dbc::Mode mode() const { return status_.mode; }
+  [[nodiscard]] const dbc::ControllerStatus& status() const { return status_; }
+  [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // came since the last Advance()
+  [[nodiscard]] bool heard() const { return heard_; }                  // any status came at all
+  [[nodiscard]] std::uint64_t rejected_frames() const {
+    return rejected_frames_;
+  }  // wrong CRC, length or counter
+  [[nodiscard]] std::uint64_t missed_commands() const {
+    return missed_commands_;
+  }  // cycles without one, once obeyed
+
+ private:
+  // The last command of one of both messages.
+  struct Channel {
+    bool enable = false;
+    double value = 0.0;
+    int age = kCommandLifetime;  // cycles since it came
+    bool answered = false;       // it answers this cycle's state set
+
+    [[nodiscard]] bool Obeyed() const { return enable && age < kCommandLifetime; }
+  };
+
+  void Emit(const dbc::Message& message, std::uint8_t counter, can::Time now);
+  void EmitObstacles(can::Time now);
+  [[nodiscard]] std::uint8_t StateCounter() const;
+  template <typename Command>
+  void Take(const Command& command, double value, Channel& channel) const;
+
+  const dbc::VehicleBus* bus_;
+  Plant plant_;
+  Actuator steering_actuator_;
+  Actuator acceleration_actuator_;
+  Sensors sensors_;
+  Driver driver_;
+  std::vector<control::Obstacle> obstacles_;  // as of the start
+
+  std::int64_t cycle_ = 0;
+  std::uint8_t request_counter_ = 0;
+  std::uint8_t object_counter_ = 0;
+  std::uint8_t list_counter_ = 0;
+  std::vector<can::Frame> frames_;
+
+  Channel steering_;
+  Channel acceleration_;
+  bool obeyed_ = false;  // at some time
+  dbc::ControllerStatus status_;
+  bool status_is_new_ = false;
+  bool status_after_ = false;
+  bool heard_ = false;
+  std::uint64_t rejected_frames_ = 0;
+  std::uint64_t missed_commands_ = 0;
+};
+
+}  // namespace sim
