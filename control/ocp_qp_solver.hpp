@@ -96,7 +96,7 @@ class OcpQpSolver {
   bool SolveBase(const Qp& qp);
   bool ShiftRows(const Qp& qp);
   void StartCold(const Qp& qp);
-  void StartFrom(const Qp& qp, const Point& guess);
+  bool StartFrom(const Qp& qp, const Point& guess);
   void StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x, const VectorU& u,
                 double least, double mu, const RowMultiplier& at_least);
   double Residuals(const Qp& qp);

@@ -80,11 +80,7 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
     if (result.kkt_residual <= settings_.tolerance) result.status = SolverStatus::kSolved;
     return result;
   }
-  if (guess != nullptr) {
-    StartFrom(qp, *guess);
-  } else {
-    StartCold(qp);
-  }
+  if (guess == nullptr || !StartFrom(qp, *guess)) StartCold(qp);
   for (;; ++result.iterations) {
     result.kkt_residual = Residuals(qp);
     if (!std::isfinite(result.kkt_residual)) return result;
@@ -186,16 +182,24 @@ void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& wor
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::StartCold(const Qp& qp) {
   constexpr double kStartMu = 1.0;
+  for (auto& work : work_) {
+    work.x.setZero();
+    work.u.setZero();
+    work.pi.setZero();
+  }
   detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
     const double least = 0.1 * std::min(1.0, row.hi - row.lo) + 1e-3;
     StartRow(row, work, stage.x, stage.u, least, kStartMu, {});
   });
 }
 
-// From the guess's inputs and multipliers, kept off the boundary so that a row may still change sides.
+// From the guess's inputs and multipliers, kept off the boundary so that a row may still change sides. False
+// if the guess violates a row by more than the start can bridge: from far outside a cold start takes fewer
+// steps.
 template <int kNx, int kNu>
-void OcpQpSolver<kNx, kNu>::StartFrom(const Qp& qp, const Point& guess) {
-  constexpr double kStartMu = 1e-2;
+bool OcpQpSolver<kNx, kNu>::StartFrom(const Qp& qp, const Point& guess) {
+  constexpr double kStartMu = 0.1;
+  constexpr double kMaxViolation = 1e-2;
   for (std::size_t i = 0; i < work_.size(); ++i) {
     auto& work = work_[i];
     work.u = guess.stages[i].u - work.base_u;
@@ -203,10 +207,15 @@ void OcpQpSolver<kNx, kNu>::StartFrom(const Qp& qp, const Point& guess) {
     if (i + 1 < work_.size()) work_[i + 1].x = qp.stages[i].A * work.x + qp.stages[i].B * work.u;
     for (std::size_t j = 0; j < static_cast<std::size_t>(qp.stages[i].row_count); ++j) {
       const auto& row = qp.stages[i].rows[j];
+      RowWork& at = work.rows[j];
+      const double value = detail::RowValue(row, work.x, work.u);
+      const double violation = std::max(at.lo.bound - value, value - at.hi.bound);
+      if (!(violation - guess.stages[i].slack[j] <= kMaxViolation)) return false;
       const double least = 0.02 * std::min(1.0, row.hi - row.lo) + 1e-3;
-      StartRow(row, work.rows[j], work.x, work.u, least, kStartMu, guess.stages[i].lambda[j]);
+      StartRow(row, at, work.x, work.u, least, kStartMu, guess.stages[i].lambda[j]);
     }
   }
+  return true;
 }
 
 // Residuals of all equations but λ t = 0 into the work space, and μ. Returns the largest KKT residual.
