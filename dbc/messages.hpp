@@ -21,7 +21,7 @@ struct VehicleMotion {
   double omega = 0.0;    // yaw rate [rad/s]
 };
 struct VehicleFeedback {
-  double psi = 0.0;           // heading, wrapped to [-π, π] [rad]
+  double psi = 0.0;           // heading, wrapped to [-π, π] to within the resolution [rad]
   double delta = 0.0;         // steering angle of the front wheels [rad]
   double acceleration = 0.0;  // longitudinal acceleration [m/s²]
 };

@@ -63,9 +63,10 @@ constexpr std::array<DecodeFunction, kTypes> MakeDecoders(std::index_sequence<kI
 
 constexpr std::array<DecodeFunction, kTypes> kDecoders = MakeDecoders(std::make_index_sequence<kTypes>());
 
-const Signal& Require(const MessageDefinition& message, const char* signal) {
+const Signal& Require(const MessageDefinition& message, std::string_view signal) {
   const Signal* found = message.Find(signal);
-  if (found == nullptr) throw std::runtime_error("message " + message.name + " has no signal " + signal);
+  if (found == nullptr)
+    throw std::runtime_error("message " + message.name + " has no signal " + std::string(signal));
   return *found;
 }
 
@@ -148,8 +149,8 @@ struct VehicleBus::Binding {
     BoundMessage bound;
     bound.id = message.id;
     bound.length = message.length;
-    bound.crc = &Require(message, "CRC");
-    bound.counter = &Require(message, "Counter");
+    bound.crc = &Require(message, kCrcSignal);
+    bound.counter = &Require(message, kCounterSignal);
     // A default would be the same for all messages: the data id must be the message's own.
     const auto data_id = message.attributes.find("E2EDataId");
     bound.data_id = static_cast<std::uint16_t>(RequireNumber(

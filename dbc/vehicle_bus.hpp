@@ -23,6 +23,10 @@
 
 namespace dbc {
 
+// The signals of the end-to-end protection, which every message has.
+inline constexpr std::string_view kCrcSignal = "CRC";
+inline constexpr std::string_view kCounterSignal = "Counter";
+
 struct RawMessage {
   std::uint32_t id = 0;
   std::uint8_t length = 0;
