@@ -80,7 +80,7 @@ class OcpQpSolver {
     double r_epsilon = 0.0;
     double inverse_s = 0.0;  // 1 / (ρ + w_lo + w_hi); 0 of a hard row
     double w = 0.0;
-    VectorX C_K;  // C + D K; not used where the row bounds a state alone
+    VectorX C_K = VectorX::Zero();  // C + D K; not used where the row bounds a state alone
     double depsilon = 0.0;
   };
   // Deviations from the base, the optimum without rows, and the recursion's results.
