@@ -1,0 +1,64 @@
+// lpvmpc-sim: the simulated vehicle of a scenario on a CAN interface.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "can/socket.hpp"
+#include "dbc/vehicle_bus.hpp"
+#include "sim/bus_run.hpp"
+#include "sim/options.hpp"
+#include "sim/scenario.hpp"
+#include "sim/summary.hpp"
+
+namespace {
+
+constexpr int kPassed = 0;
+constexpr int kFailed = 1;
+constexpr int kBadInput = 2;
+
+// Before anything else: BusRun takes these signals from a file descriptor.
+void BlockSignals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  sigprocmask(SIG_BLOCK, &signals, nullptr);
+}
+
+int Drive(const sim::Options& options) {
+  std::optional<sim::Scenario> scenario;
+  const dbc::VehicleBus bus;
+  std::optional<can::Socket> socket;
+  try {
+    scenario = sim::LoadScenario(options.scenario);
+    socket.emplace(options.interface, can::SocketOptions{.filters = sim::ControllerFilters(bus)});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lpvmpc-sim: %s\n", error.what());
+    return kBadInput;
+  }
+  const auto timeout = std::chrono::duration<double>(options.timeout);
+  sim::BusRun run(*scenario, bus, *socket,
+                  {.lockstep = options.lockstep,
+                   .controller_timeout = std::chrono::duration_cast<std::chrono::milliseconds>(timeout)});
+  const sim::Summary summary = run.Run();
+  const std::string text = options.json ? sim::ToJson(summary) : sim::ToText(summary);
+  std::fputs(text.c_str(), stdout);
+  return summary.passed() ? kPassed : kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  BlockSignals();
+  int exit_code = kPassed;
+  const std::optional<sim::Options> options = sim::ParseOptions(argc, argv, exit_code);
+  if (!options) return exit_code;
+  try {
+    return Drive(*options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lpvmpc-sim: %s\n", error.what());
+    return kFailed;
+  }
+}
