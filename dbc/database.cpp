@@ -23,8 +23,9 @@ const MessageDefinition* Database::Find(std::uint32_t id, bool extended) const {
 const AttributeValue* Database::Attribute(const MessageDefinition& message, std::string_view name) const {
   if (const auto own = message.attributes.find(name); own != message.attributes.end()) return &own->second;
   const auto definition = attribute_definitions.find(name);
-  if (definition == attribute_definitions.end() || !definition->second.default_value) return nullptr;
-  return &*definition->second.default_value;
+  if (definition == attribute_definitions.end()) return nullptr;
+  const std::optional<AttributeValue>& value = definition->second.default_value;
+  return value ? &*value : nullptr;
 }
 
 std::optional<double> Number(const AttributeValue& value) {

@@ -16,6 +16,9 @@ template <typename Struct, typename Member>
 struct Field {
   const char* signal;
   Member Struct::*member;
+
+  constexpr Field(const char* signal_name, Member Struct::*member_pointer)
+      : signal(signal_name), member(member_pointer) {}
 };
 
 template <typename... Members>

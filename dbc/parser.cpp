@@ -291,7 +291,8 @@ class Parser {
   void ResolveMultiplexing(MessageDefinition& message, const std::vector<SignalNote>& notes) const {
     std::vector<Signal>& all = message.signals;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i].multiplexing) all[i].multiplexing->multiplexor = FindMultiplexor(message, notes[i]);
+      std::optional<Multiplexing>& multiplexing = all[i].multiplexing;
+      if (multiplexing) multiplexing->multiplexor = FindMultiplexor(message, notes[i]);
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
       std::size_t steps = 0;

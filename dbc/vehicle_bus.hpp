@@ -64,7 +64,8 @@ class VehicleBus {
   VehicleBus& operator=(VehicleBus&&) noexcept;
 
   // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value
-  // (kNotFinite, `out` is unchanged). Does not allocate.
+  // (kNotFinite, `out` is unchanged). Of `counter` the lower four bits are sent, 15 too, which no receiver
+  // accepts. Does not allocate.
   [[nodiscard]] EncodeStatus Encode(const Message& message, std::uint8_t counter, RawMessage& out) const;
 
   // Length, CRC and range of the counter; whether the counter follows its predecessor is the receiver's to

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "can/candump_log.hpp"
@@ -103,13 +104,13 @@ int RunDecode(std::istream& in, const std::string& name, std::ostream& out, std:
   Decoder decoder;
   bool failed = false;
   std::string line;
-  for (long number = 1; std::getline(in, line); ++number) {
+  for (long number = 1; out && std::getline(in, line); ++number) {
     const auto entry = can::ParseCandumpLine(line);
     if (!entry) {
       err << name << ':' << number << ": " << entry.error() << '\n' << std::flush;
       failed = true;
-    } else if (*entry) {
-      out << decoder.Line(**entry) << '\n';
+    } else if (const std::optional<can::LogEntry>& frame = *entry) {
+      out << decoder.Line(*frame) << '\n';
       if (in.rdbuf()->in_avail() <= 0) out.flush();
     }
   }
