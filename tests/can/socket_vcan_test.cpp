@@ -1,14 +1,30 @@
 // Frames through the kernel's vcan0.
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
+#include <new>
 #include <utility>
 
 #include "can/socket.hpp"
 #include "tests/can/bus.hpp"
+#include "tests/daemon/allocations.hpp"
 
 namespace can {
 namespace {
+
+TEST(SocketOnVcan, SendAndReceiveDoNotAllocate) {
+  Socket socket("vcan0", {.receive_own = true});
+  Received received;
+  const std::size_t before = lpvmpcd::Allocations();
+  const SendStatus sent = socket.Send(MakeFrame(0x10, {1, 2}));
+  const ReceiveStatus first = socket.Receive(received);
+  const ReceiveStatus second = socket.Receive(received);
+  EXPECT_EQ(lpvmpcd::Allocations(), before);
+  EXPECT_EQ(sent, SendStatus::kSent);
+  EXPECT_EQ(first, ReceiveStatus::kFrame);
+  EXPECT_EQ(second, ReceiveStatus::kWouldBlock);
+}
 
 TEST(SocketOnVcan, FramesOfEveryKindArriveAsSent) {
   Socket sender("vcan0", {.fd_frames = true});
