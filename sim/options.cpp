@@ -10,8 +10,8 @@ namespace sim {
 std::optional<Options> ParseOptions(int argc, const char* const* argv, int& exit_code) {
   Options options;
   CLI::App app{"The simulated vehicle of a scenario on a CAN interface.", "lpvmpc-sim"};
-  app.add_option("--interface", options.interface, "CAN interface, such as vcan0")->required();
-  app.add_option("--scenario", options.scenario, "scenario file (TOML)")->required();
+  app.add_option("--interface", options.interface, "CAN interface, such as vcan0; required");
+  app.add_option("--scenario", options.scenario, "scenario file (TOML); required");
   app.add_flag(
       "--lockstep", options.lockstep,
       "wait for the answer to every state instead of keeping 20 Hz: as fast as both can, repeatable");
@@ -22,6 +22,10 @@ std::optional<Options> ParseOptions(int argc, const char* const* argv, int& exit
   app.footer("Exit status: 0 expectations met, 1 not met or the run failed, 2 bad usage or input.");
   try {
     app.parse(argc, argv);
+    // Not CLI11's own check, which would hide an unknown option.
+    for (const char* name : {"--interface", "--scenario"}) {
+      if (app.count(name) == 0) throw CLI::RequiredError(name);
+    }
     return options;
   } catch (const CLI::CallForHelp& help) {
     exit_code = app.exit(help);

@@ -33,7 +33,7 @@ inline constexpr double kIntegrationStep = 1e-3;     // [s]
 
 class VirtualVehicle {
  public:
-  // `bus` must outlive the vehicle. Throws std::runtime_error if the bus lacks a message.
+  // `bus` must outlive the vehicle.
   VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& bus);
 
   // The frames of one cycle, stamped `now`, once per cycle: DriverRequest, three of ObstacleObject for each

@@ -1,0 +1,89 @@
+// Stands in for the controller in tests: answers each state set, engages on a rising edge and keeps to the
+// route.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "can/frame.hpp"
+#include "control/route.hpp"
+#include "dbc/e2e.hpp"
+#include "dbc/vehicle_bus.hpp"
+
+namespace sim {
+
+class FakeController {
+ public:
+  FakeController(const dbc::VehicleBus& bus, const control::Route& route) : bus_(&bus), route_(route) {}
+
+  // The answer, if `frame` completes a state set.
+  std::vector<can::Frame> Receive(const can::Frame& frame) {
+    const auto message = bus_->Decode(frame.id, frame.Payload());
+    if (!message) return {};
+    if (const auto* request = std::get_if<dbc::DriverRequest>(&*message)) {
+      if (request->engage && !engage_ && mode == dbc::Mode::kStandby) mode = dbc::Mode::kActive;
+      if (!request->engage || request->brake || request->steering_override) mode = dbc::Mode::kStandby;
+      engage_ = request->engage;
+    } else if (const auto* pose = std::get_if<dbc::VehiclePose>(&*message)) {
+      pose_ = *pose;
+    } else if (const auto* feedback = std::get_if<dbc::VehicleFeedback>(&*message)) {
+      return Answer(*feedback, bus_->Check(frame.id, frame.Payload()).counter);
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::vector<can::Frame> Answer(const dbc::VehicleFeedback& feedback,
+                                               std::uint8_t state_counter) {
+    const control::RouteProjection place = route_.Project({pose_.X, pose_.Y}, hint_);
+    hint_ = place.s;
+    const control::RoutePoint ahead = route_.At(place.s + 3.0);
+    const double heading_error = std::remainder(feedback.psi - route_.At(place.s).psi, 2.0 * M_PI);
+    const double delta =
+        std::clamp(2.6 * ahead.curvature - 0.1 * place.lateral - 0.8 * heading_error, -0.5, 0.5);
+    const bool enable = mode == dbc::Mode::kActive;
+    return {
+        Encode(dbc::SteeringCommand{
+            .enable = enable, .mode = mode, .state_counter = state_counter, .plan_age = 0, .delta = delta}),
+        Encode(dbc::AccelerationCommand{.enable = enable,
+                                        .mode = mode,
+                                        .state_counter = state_counter,
+                                        .plan_age = 0,
+                                        .acceleration = 0.0}),
+        Status()};
+  }
+
+  [[nodiscard]] can::Frame Status() {
+    ++counter_;
+    return Encode(dbc::ControllerStatus{.mode = mode,
+                                        .fault_code = dbc::FaultCode::kNone,
+                                        .solver_status = solver_status,
+                                        .iterations = 5,
+                                        .solve_time = 1e-6 * static_cast<double>(counter_ % 100 + 1),
+                                        .deadline_misses = deadline_misses});
+  }
+
+  [[nodiscard]] can::Frame Encode(const dbc::Message& message) const {
+    dbc::RawMessage raw;
+    (void)bus_->Encode(message, static_cast<std::uint8_t>(counter_ % dbc::kCounterModulus), raw);
+    can::Frame frame;
+    frame.id = raw.id;
+    frame.length = raw.length;
+    std::ranges::copy(raw.data, frame.data.begin());
+    return frame;
+  }
+
+  dbc::Mode mode = dbc::Mode::kStandby;
+  dbc::SolverStatus solver_status = dbc::SolverStatus::kSolved;
+  std::uint16_t deadline_misses = 0;
+
+ private:
+  const dbc::VehicleBus* bus_;
+  control::Route route_;
+  std::optional<double> hint_;
+  bool engage_ = false;
+  dbc::VehiclePose pose_;
+  unsigned counter_ = 0;
+};
+
+}  // namespace sim

@@ -1,0 +1,150 @@
+#include "sim/scenario.hpp"
+
+#include <cmath>
+
+#include "config/toml_table.hpp"
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/sim/scenario_files.hpp"
+
+namespace sim {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+
+class ScenarioTest : public testing::Test {
+ protected:
+  std::string ErrorOf(const std::string& text) const {
+    try {
+      (void)files_.Load(text);
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  ScenarioFiles files_;
+};
+
+const std::string kObstacle = "[[obstacle]]\nid = 1\nr_x = 1.0\nr_y = 0.5\n";
+
+TEST_F(ScenarioTest, StartsOnTheRouteAtItsSpeedByDefault) {
+  const Scenario scenario = files_.Load("");
+  EXPECT_EQ(scenario.initial[control::kX], 10.0);
+  EXPECT_EQ(scenario.initial[control::kUpsilon], 12.0);
+  EXPECT_EQ(scenario.initial_delta, 0.0);
+  EXPECT_TRUE(scenario.obstacles.empty());
+  EXPECT_FALSE(scenario.duration);
+  EXPECT_TRUE(scenario.expect.completed);
+}
+
+TEST_F(ScenarioTest, StartInACurveIsSteadyCornering) {
+  const Scenario scenario = files_.Load("[initial]\nalong = 120.0\n");
+  Plant plant(scenario.plant, scenario.initial);
+  const control::Input u(scenario.initial_delta, 0.0);
+  for (int i = 0; i < 1000; ++i) plant.Step(u, u, u, 1e-3);
+  EXPECT_NEAR(plant.state()[control::kOmega], scenario.initial[control::kOmega], 2e-3);
+  const control::RouteProjection place =
+      scenario.route.Project({plant.state()[control::kX], plant.state()[control::kY]});
+  EXPECT_NEAR(place.lateral, 0.0, 0.02);
+}
+
+TEST_F(ScenarioTest, InitialOffsetsAreRelativeToTheRoute) {
+  const Scenario scenario = files_.Load("[initial]\nalong = 20\nlateral = -0.5\nheading = 0.1\nspeed = 8\n");
+  EXPECT_NEAR(scenario.initial[control::kX], 30.0, 1e-12);
+  EXPECT_NEAR(scenario.initial[control::kY], -0.5, 1e-12);
+  EXPECT_NEAR(scenario.initial[control::kPsi], 0.1, 1e-12);
+  EXPECT_EQ(scenario.initial[control::kUpsilon], 8.0);
+}
+
+TEST_F(ScenarioTest, ObstacleIsPlacedInTheMapOrAlongTheRoute) {
+  const Scenario scenario =
+      files_.Load(kObstacle + "X = 50\nY = -1\nheading = 0.3\nside = \"left\"\n" +
+                  "[[obstacle]]\nid = 2\nr_x = 1\nr_y = 1\ns = 120\nlateral = 2\nheading = 0.1\n");
+  ASSERT_EQ(scenario.obstacles.size(), 2u);
+  EXPECT_EQ(scenario.obstacles[0].X, 50.0);
+  EXPECT_EQ(scenario.obstacles[0].heading, 0.3);
+  EXPECT_EQ(scenario.obstacles[0].side, control::PassingSide::kLeft);
+  EXPECT_EQ(scenario.obstacles[1].side, control::PassingSide::kUnknown);
+  const control::RouteProjection place =
+      scenario.route.Project({scenario.obstacles[1].X, scenario.obstacles[1].Y});
+  EXPECT_NEAR(place.s, 120.0, 1e-6);
+  EXPECT_NEAR(place.lateral, 2.0, 1e-9);
+  EXPECT_NEAR(scenario.obstacles[1].heading, scenario.route.At(120.0).psi + 0.1, 1e-12);
+}
+
+TEST_F(ScenarioTest, DeviationsScaleTheVehicle) {
+  const Scenario scenario = files_.Load(
+      "[vehicle]\nmass_factor = 1.2\nfront_stiffness_factor = 0.9\ntyre = \"saturating\"\nmu = 0.6\n"
+      "steering_lag = 0.06\nsteering_rate = 0.7\ndelay_cycles = 1\n");
+  EXPECT_NEAR(scenario.plant.vehicle.m, 1.2 * 1919.0, 1e-9);
+  EXPECT_NEAR(scenario.plant.vehicle.C_alpha_f, 0.9 * 156e3, 1e-9);
+  EXPECT_EQ(scenario.plant.tyre, Tyre::kSaturating);
+  EXPECT_EQ(scenario.plant.mu, 0.6);
+  EXPECT_EQ(scenario.steering.time_constant, 0.06);
+  EXPECT_EQ(scenario.steering.rate, 0.7);
+  EXPECT_EQ(scenario.acceleration.delay_cycles, 1);
+}
+
+TEST_F(ScenarioTest, ObstacleOutsideTheMapIsRefused) {
+  EXPECT_EQ(
+      ErrorOf(kObstacle + "X = 1700\nY = 0\n"),
+      (files_.folder() / "scenario.toml:7: key 'obstacle[0].X' = 1700 is outside [-1, 1500] m").string());
+  EXPECT_THAT(ErrorOf(kObstacle + "X = 1\nY = -600.5\n"),
+              EndsWith(":8: key 'obstacle[0].Y' = -600.5 is outside [-600, 800] m"));
+  files_.Write("route.toml",
+               "[route]\nspeed = 12\nstart = {X = -100, Y = 0, psi = 0}\npieces = [{kind = \"straight\", "
+               "length = 200}]\n"
+               "[road]\nleft = 4\nright = 4\n");
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 20\n"),
+              EndsWith(":7: key 'obstacle[0].s' = 20 puts the obstacle at X = -80.0, outside [-1, 1500] m"));
+}
+
+TEST_F(ScenarioTest, WrongInputNamesFileLineKeyAndValue) {
+  EXPECT_THAT(ErrorOf("duration = \"long\"\n"),
+              EndsWith(":3: key 'duration' = \"long\" (string) must be a number"));
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 500\n"), HasSubstr("'obstacle[0].s' = 500 is outside [0, 160"));
+  EXPECT_THAT(ErrorOf(kObstacle), HasSubstr("key 'obstacle[0].X' is missing"));
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 5\nX = 3\n"),
+              HasSubstr("key 'obstacle[0].X' = 3 must not be given along with s"));
+  EXPECT_THAT(ErrorOf(kObstacle + "X = 5\nY = 3\nlateral = 1\n"), HasSubstr("must not be given without s"));
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 5\n" + kObstacle + "s = 50\n"),
+              EndsWith(":9: key 'obstacle[1].id' = 1 is that of an obstacle before"));
+  EXPECT_THAT(ErrorOf("[vehicle]\ntyre = \"round\"\n"),
+              HasSubstr("must be one of \"linear\", \"saturating\""));
+  EXPECT_THAT(ErrorOf("[expect]\nmin_clearence_m = 0\n"), EndsWith("is 'expect.min_clearance_m' meant?"));
+}
+
+TEST_F(ScenarioTest, MissingRouteFileIsNamed) {
+  files_.Write("other.toml", "name = \"a\"\nroute = \"none.toml\"\n");
+  try {
+    (void)LoadScenario(files_.folder() / "other.toml");
+    FAIL();
+  } catch (const config::ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("none.toml: cannot be read: No such file or directory"));
+  }
+}
+
+TEST(ShippedScenario, DemoIsAMinuteOfCurvesInsideTheMap) {
+  const Scenario scenario =
+      LoadScenario(std::filesystem::path(LPVMPC_SOURCE_DIR) / "scenarios/demo/scenario.toml");
+  EXPECT_NEAR(scenario.route.duration(), 60.0, 5.0);
+  double sharpest_left = 0.0;
+  double sharpest_right = 0.0;
+  for (double s = 0.0; s <= scenario.route.length(); s += 1.0) {
+    const control::RoutePoint point = scenario.route.At(s);
+    EXPECT_GE(point.X, kMapMinX);
+    EXPECT_LE(point.X, kMapMaxX);
+    EXPECT_GE(point.Y, kMapMinY);
+    EXPECT_LE(point.Y, kMapMaxY);
+    sharpest_left = std::max(sharpest_left, point.curvature);
+    sharpest_right = std::min(sharpest_right, point.curvature);
+  }
+  EXPECT_GT(sharpest_left, 0.005);
+  EXPECT_LT(sharpest_right, -0.005);
+  EXPECT_LE(std::max(sharpest_left, -sharpest_right), 1.0 / 80.0);
+  EXPECT_FALSE(scenario.obstacles.empty());
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,131 @@
+#include "sim/summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/sim/fake_controller.hpp"
+#include "tests/sim/scenario_files.hpp"
+
+namespace sim {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class SummaryTest : public testing::Test {
+ protected:
+  // Drives to the end; `disturb` may change the controller before each cycle.
+  template <typename F>
+  Summary Drive(const Scenario& scenario, const F& disturb) {
+    VirtualVehicle vehicle(scenario, bus_);
+    FakeController controller(bus_, scenario.route);
+    Recorder recorder(scenario);
+    while (!recorder.finished()) {
+      disturb(controller, vehicle);
+      for (const can::Frame& frame : vehicle.Sense({})) {
+        for (const can::Frame& answer : controller.Receive(frame)) vehicle.Receive(answer);
+      }
+      recorder.Record(vehicle);
+      vehicle.Advance();
+    }
+    return recorder.Result();
+  }
+  Summary Drive(const std::string& text) {
+    return Drive(files_.Load(text), [](FakeController&, VirtualVehicle&) {});
+  }
+
+  ScenarioFiles files_;
+  dbc::VehicleBus bus_;
+};
+
+TEST_F(SummaryTest, DriveToTheEndOfTheRouteIsCompleted) {
+  const Summary summary = Drive("[expect]\nmin_road_margin_m = 2.0\nmax_rms_lateral_error_m = 0.5\n");
+  EXPECT_TRUE(summary.completed);
+  EXPECT_TRUE(summary.passed());
+  EXPECT_EQ(summary.infeasible_steps, 0);
+  EXPECT_NEAR(static_cast<double>(summary.steps) * kCycleTime, 160.0 / 12.0, 1.0);
+  EXPECT_FALSE(summary.min_clearance_m);
+  EXPECT_LT(*summary.rms_lateral_error_m, 0.5);
+  EXPECT_GT(summary.solve_time_median_us, 0);
+  EXPECT_LE(summary.solve_time_median_us, summary.solve_time_p99_us);
+  EXPECT_LE(summary.solve_time_p99_us, summary.solve_time_max_us);
+  EXPECT_EQ(summary.solve_time_max_us, 100);
+}
+
+TEST_F(SummaryTest, DurationEndsTheDrive) {
+  const Summary summary = Drive("duration = 4.0\n");
+  EXPECT_TRUE(summary.completed);
+  EXPECT_LE(summary.steps, 80);
+}
+
+TEST_F(SummaryTest, SameScenarioGivesTheSameSummary) {
+  const std::string noisy =
+      "seed = 5\n[sensors]\nposition = 0.05\nspeed = 0.05\nheading = 0.004\nyaw_rate = 0.01\n";
+  EXPECT_EQ(ToJson(Drive(noisy)), ToJson(Drive(noisy)));
+}
+
+TEST_F(SummaryTest, ClearanceIsTheDistanceToTheEdgeOfTheNearestObstacle) {
+  const Summary summary = Drive(
+      "duration = 6.0\n[[obstacle]]\nid = 1\nX = 50\nY = 2\nr_x = 3\nr_y = 0.5\n"
+      "[[obstacle]]\nid = 2\nX = 60\nY = -3\nr_x = 1\nr_y = 1\n[expect]\nmin_clearance_m = 1.6\n");
+  ASSERT_TRUE(summary.min_clearance_m);
+  EXPECT_NEAR(*summary.min_clearance_m, 1.5, 0.02);  // between two samples
+  ASSERT_EQ(summary.failed_expectations.size(), 1u);
+  EXPECT_THAT(summary.failed_expectations[0], HasSubstr("min_clearance_m = 1."));
+}
+
+TEST_F(SummaryTest, DriveThatTheDriverEndedIsNotCompleted) {
+  const Summary summary = Drive("duration = 6.0\n[driver]\ndisengage_at = 3.0\n");
+  EXPECT_FALSE(summary.completed);
+  EXPECT_THAT(summary.failed_expectations, ElementsAre("completed = false"));
+}
+
+TEST_F(SummaryTest, DriveThatComesToRestEnds) {
+  const Summary summary = Drive("[driver]\nbrake_at = 2.0\n[expect]\ncompleted = false\n");
+  EXPECT_FALSE(summary.completed);
+  EXPECT_TRUE(summary.passed());
+}
+
+TEST_F(SummaryTest, ControllerThatNeverEngagesGivesNoSteps) {
+  const Summary summary =
+      Drive(files_.Load("duration = 2.0\n"),
+            [](FakeController& controller, VirtualVehicle&) { controller.mode = dbc::Mode::kInit; });
+  EXPECT_FALSE(summary.completed);
+  EXPECT_EQ(summary.steps, 0);
+  EXPECT_FALSE(summary.rms_lateral_error_m);
+}
+
+TEST_F(SummaryTest, CountsStepsThatWereNotSolvedAndDeadlineMissesAcrossTheWrap) {
+  const Scenario scenario =
+      files_.Load("duration = 4.0\n[expect]\nmax_infeasible_steps = 2\nmax_deadline_misses = 4\n");
+  int cycle = 0;
+  const Summary summary = Drive(scenario, [&cycle](FakeController& controller, VirtualVehicle&) {
+    ++cycle;
+    controller.solver_status =
+        cycle >= 40 && cycle < 43 ? dbc::SolverStatus::kInfeasible : dbc::SolverStatus::kSolved;
+    controller.deadline_misses = cycle < 50 ? 1022 : 3;
+  });
+  EXPECT_EQ(summary.infeasible_steps, 3);
+  EXPECT_EQ(summary.deadline_misses, 5);
+  EXPECT_THAT(summary.failed_expectations,
+              ElementsAre("infeasible_steps = 3 is above 2", "deadline_misses = 5 is above 4"));
+}
+
+TEST(SummaryJson, HasTheAgreedKeys) {
+  Summary summary;
+  summary.min_road_margin_m = 1.5;
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(ToJson(summary));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  EXPECT_THAT(keys, ElementsAre("completed", "steps", "infeasible_steps", "min_clearance_m",
+                                "min_road_margin_m", "rms_lateral_error_m", "solve_time_us",
+                                "deadline_misses", "passed", "failed_expectations"));
+  EXPECT_TRUE(json["min_clearance_m"].is_null());
+  EXPECT_EQ(json["min_road_margin_m"], 1.5);
+  EXPECT_EQ(json["solve_time_us"].size(), 3u);
+  EXPECT_TRUE(json["solve_time_us"].contains("p99"));
+}
+
+}  // namespace
+}  // namespace sim

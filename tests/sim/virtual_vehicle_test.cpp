@@ -1,0 +1,218 @@
+#include "sim/virtual_vehicle.hpp"
+
+#include <chrono>
+#include <map>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/sim/fake_controller.hpp"
+#include "tests/sim/scenario_files.hpp"
+
+namespace sim {
+namespace {
+
+using testing::ElementsAre;
+
+const std::string kTwoObstacles =
+    "[[obstacle]]\nid = 1\ns = 50\nr_x = 1\nr_y = 1\nvelocity_X = 2\n[[obstacle]]\nid = 7\ns = 90\nr_x = "
+    "1\nr_y = 1\n";
+
+class VirtualVehicleTest : public testing::Test {
+ protected:
+  std::vector<std::string> NamesOf(std::span<const can::Frame> frames) const {
+    std::vector<std::string> names;
+    for (const can::Frame& frame : frames) names.push_back(bus_.Find(frame.id)->name);
+    return names;
+  }
+  // One cycle with a controller.
+  static void Cycle(VirtualVehicle& vehicle, FakeController& controller) {
+    for (const can::Frame& frame : vehicle.Sense({})) {
+      for (const can::Frame& answer : controller.Receive(frame)) vehicle.Receive(answer);
+    }
+    vehicle.Advance();
+  }
+
+  ScenarioFiles files_;
+  dbc::VehicleBus bus_;
+};
+
+TEST_F(VirtualVehicleTest, SendsItsFramesInTheOrderOfTheBusContract) {
+  VirtualVehicle vehicle(files_.Load(kTwoObstacles), bus_);
+  EXPECT_THAT(NamesOf(vehicle.Sense({})),
+              ElementsAre("DriverRequest", "ObstacleObject", "ObstacleObject", "ObstacleObject",
+                          "ObstacleObject", "ObstacleObject", "ObstacleObject", "ObstacleList", "VehiclePose",
+                          "VehicleMotion", "VehicleFeedback"));
+}
+
+TEST_F(VirtualVehicleTest, FramesCarryTheTimeTheyAreSensedAt) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  for (const can::Frame& frame : vehicle.Sense(std::chrono::seconds(7))) {
+    EXPECT_EQ(frame.timestamp, std::chrono::seconds(7));
+  }
+}
+
+TEST_F(VirtualVehicleTest, EveryMessageHasItsOwnCounterThatGoesUpWithEachFrame) {
+  VirtualVehicle vehicle(files_.Load(kTwoObstacles), bus_);
+  std::map<std::uint32_t, std::uint8_t> expected;
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    for (const can::Frame& frame : vehicle.Sense({})) {
+      const dbc::E2eCheck check = bus_.Check(frame.id, frame.Payload());
+      EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+      EXPECT_EQ(check.counter, expected[frame.id]);
+      expected[frame.id] = dbc::NextCounter(check.counter);
+    }
+    vehicle.Advance();
+  }
+}
+
+TEST_F(VirtualVehicleTest, TellsStateAndObstaclesAsTheyAre) {
+  const Scenario scenario = files_.Load(kTwoObstacles + "[initial]\nlateral = 0.5\n");
+  VirtualVehicle vehicle(scenario, bus_);
+  for (int i = 0; i < 20; ++i) vehicle.Advance();
+  int positions = 0;
+  for (const can::Frame& frame : vehicle.Sense({})) {
+    const dbc::Message message = bus_.Decode(frame.id, frame.Payload()).value();
+    if (const auto* pose = std::get_if<dbc::VehiclePose>(&message)) {
+      EXPECT_NEAR(pose->X, 10.0 + 12.0, 1e-4);
+      EXPECT_NEAR(pose->Y, 0.5, 1e-4);
+    } else if (const auto* position = std::get_if<dbc::ObstaclePosition>(&message)) {
+      EXPECT_EQ(position->object_id, positions == 0 ? 1 : 7);
+      if (positions == 0) {
+        EXPECT_NEAR(position->X, 60.0 + 2.0, 1e-3);
+      }
+      ++positions;
+    } else if (const auto* list = std::get_if<dbc::ObstacleList>(&message)) {
+      EXPECT_EQ(list->count, 2);
+    }
+  }
+  EXPECT_EQ(positions, 2);
+}
+
+TEST_F(VirtualVehicleTest, BeforeEngagementRollsOnAsItStarted) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  for (int i = 0; i < 40; ++i) vehicle.Advance();
+  EXPECT_NEAR(vehicle.time(), 2.0, 1e-9);
+  EXPECT_NEAR(vehicle.state()[control::kX], 34.0, 1e-9);
+  EXPECT_NEAR(vehicle.state()[control::kUpsilon], 12.0, 1e-9);
+}
+
+TEST_F(VirtualVehicleTest, CommandIsObeyedOnlyWhileEnabled) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  const FakeController controller(bus_, files_.Load("").route);
+  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = false, .delta = 0.1}));
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = false, .acceleration = 1.0}));
+  vehicle.Advance();
+  EXPECT_EQ(vehicle.actuators(), control::Input(0.0, 0.0));
+  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.1}));
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 1.0}));
+  vehicle.Advance();
+  EXPECT_NEAR(vehicle.actuators()[control::kDelta], 0.1, 1e-6);
+  EXPECT_NEAR(vehicle.actuators()[control::kAcceleration], 1.0, 1e-4);
+}
+
+TEST_F(VirtualVehicleTest, DriverTakesOverAfterDisablingAndBrakesToAStop) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  const FakeController controller(bus_, files_.Load("").route);
+  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.02}));
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 0.0}));
+  vehicle.Advance();
+  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = false, .delta = 0.3}));
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = false, .acceleration = 2.0}));
+  vehicle.Advance();
+  EXPECT_NEAR(vehicle.actuators()[control::kDelta], 0.02, 1e-6);
+  EXPECT_EQ(vehicle.actuators()[control::kAcceleration], kDriverDeceleration);
+  for (int i = 0; i < 200; ++i) vehicle.Advance();
+  EXPECT_NEAR(vehicle.state()[control::kUpsilon], 0.0, 1e-6);
+}
+
+TEST_F(VirtualVehicleTest, CommandThatIsNotRenewedIsObeyedForItsLifetimeOnly) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  const FakeController controller(bus_, files_.Load("").route);
+  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.0}));
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 1.0}));
+  for (int i = 0; i < kCommandLifetime; ++i) {
+    vehicle.Advance();
+    EXPECT_NEAR(vehicle.actuators()[control::kAcceleration], 1.0, 1e-4);
+  }
+  EXPECT_EQ(vehicle.missed_commands(), static_cast<std::uint64_t>(kCommandLifetime - 1));
+  vehicle.Advance();
+  EXPECT_EQ(vehicle.actuators()[control::kAcceleration], kDriverDeceleration);
+}
+
+TEST_F(VirtualVehicleTest, IsAnsweredByBothCommandsToItsCounterAndAStatusAfterThem) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  FakeController controller(bus_, files_.Load("").route);
+  vehicle.Advance();  // the counter is 1 now
+  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.state_counter = 1}));
+  vehicle.Receive(controller.Status());
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.state_counter = 0}));
+  vehicle.Receive(controller.Status());
+  EXPECT_FALSE(vehicle.Answered());
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.state_counter = 1}));
+  EXPECT_FALSE(vehicle.Answered());
+  vehicle.Receive(controller.Status());
+  EXPECT_TRUE(vehicle.Answered());
+  vehicle.Advance();
+  EXPECT_FALSE(vehicle.Answered());
+}
+
+TEST_F(VirtualVehicleTest, FrameWithWrongCrcChangesNothing) {
+  VirtualVehicle vehicle(files_.Load(""), bus_);
+  const FakeController controller(bus_, files_.Load("").route);
+  can::Frame bad = controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.1});
+  bad.data[5] ^= std::byte{0x10};
+  vehicle.Receive(bad);
+  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 0.0}));
+  vehicle.Advance();
+  EXPECT_EQ(vehicle.actuators()[control::kDelta], 0.0);
+  EXPECT_EQ(vehicle.rejected_frames(), 1u);
+}
+
+TEST_F(VirtualVehicleTest, DriverEngagesOnceTheControllerStandsBy) {
+  const Scenario scenario = files_.Load("[driver]\nengage_at = 1.0\n");
+  VirtualVehicle vehicle(scenario, bus_);
+  FakeController controller(bus_, scenario.route);
+  while (vehicle.time() < 0.99) {
+    Cycle(vehicle, controller);
+    EXPECT_EQ(controller.mode, dbc::Mode::kStandby);
+  }
+  while (vehicle.time() < 1.5) Cycle(vehicle, controller);
+  EXPECT_EQ(controller.mode, dbc::Mode::kActive);
+}
+
+TEST_F(VirtualVehicleTest, DriverOverridesAndKeepsTheWheel) {
+  const Scenario scenario = files_.Load("[driver]\nbrake_at = 2.0\n");
+  VirtualVehicle vehicle(scenario, bus_);
+  FakeController controller(bus_, scenario.route);
+  while (vehicle.time() < 1.9) Cycle(vehicle, controller);
+  EXPECT_EQ(controller.mode, dbc::Mode::kActive);
+  while (vehicle.time() < 5.0) Cycle(vehicle, controller);
+  EXPECT_EQ(controller.mode, dbc::Mode::kStandby);
+  EXPECT_LT(vehicle.state()[control::kUpsilon], 7.0);
+}
+
+TEST(Driver, AsksAgainWhenTheControllerDidNotEngage) {
+  Driver driver({});
+  int edges = 0;
+  bool before = false;
+  for (int i = 0; i < 100; ++i) {
+    const bool engage = driver.Request(0.05 * i, dbc::Mode::kStandby).engage;
+    edges += engage && !before;
+    before = engage;
+  }
+  EXPECT_GE(edges, 3);
+}
+
+TEST(Driver, DoesNotAskAControllerThatIsNotReady) {
+  Driver driver({});
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(driver.Request(0.05 * i, dbc::Mode::kInit).engage);
+}
+
+TEST(Driver, HoldsTheRequestWhileDriven) {
+  Driver driver({});
+  for (int i = 0; i < 10; ++i) (void)driver.Request(0.05 * i, dbc::Mode::kStandby);
+  for (int i = 10; i < 200; ++i) EXPECT_TRUE(driver.Request(0.05 * i, dbc::Mode::kActive).engage);
+}
+
+}  // namespace
+}  // namespace sim
