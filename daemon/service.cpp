@@ -149,7 +149,7 @@ void Service::ReadSocket() {
     switch (socket_.Receive(received)) {
       case can::ReceiveStatus::kFrame:
         if (unsent_cycles_ < kUnsentCyclesUntilDown) {
-          BusUp();
+          SetBus(Bus::kUp, "is up");
         }
         if (loop_->Receive(received.frame, Received(received.frame))) {
           RunCycle(Trigger::kState);
@@ -158,14 +158,13 @@ void Service::ReadSocket() {
       case can::ReceiveStatus::kWouldBlock:
         return;
       case can::ReceiveStatus::kInterfaceDown:
-        BusDown("is down");
+        SetBus(Bus::kDown, "is down");
         return;
       case can::ReceiveStatus::kInterfaceGone:
-        BusDown("is gone");
-        Set(retry_timer_, kRetryPeriod, kRetryPeriod);
+        SetBus(Bus::kGone, "is gone");
         return;
       case can::ReceiveStatus::kError:
-        BusDown(std::strerror(socket_.last_error()));
+        SetBus(Bus::kDown, std::strerror(socket_.last_error()));
         return;
     }
   }
@@ -196,25 +195,24 @@ void Service::Send(std::span<const can::Frame> frames) {
         unsent = true;
         break;
       case can::SendStatus::kInterfaceDown:
-        BusDown("is down");
+        SetBus(Bus::kDown, "is down");
         return;
       case can::SendStatus::kInterfaceGone:
-        BusDown("is gone");
-        Set(retry_timer_, kRetryPeriod, kRetryPeriod);
+        SetBus(Bus::kGone, "is gone");
         return;
       case can::SendStatus::kInvalidFrame:
-        BusDown("refuses our frames");
+        SetBus(Bus::kDown, "refuses our frames");
         return;
       case can::SendStatus::kError:
-        BusDown(std::strerror(socket_.last_error()));
+        SetBus(Bus::kDown, std::strerror(socket_.last_error()));
         return;
     }
   }
   unsent_cycles_ = unsent ? unsent_cycles_ + 1 : 0;
   if (unsent_cycles_ >= kUnsentCyclesUntilDown) {
-    BusDown("does not send");
+    SetBus(Bus::kDown, "does not send");
   } else if (!unsent) {
-    BusUp();
+    SetBus(Bus::kUp, "is up");
   }
 }
 
@@ -226,26 +224,20 @@ void Service::Arm(Trigger last) {
   }
 }
 
-void Service::BusDown(const char* why) {
-  if (bus_up_) {
-    spdlog::error("{} {}", settings_.interface, why);
+void Service::SetBus(Bus bus, const char* what) {
+  if (bus == bus_) {
+    return;
   }
-  bus_up_ = false;
-  loop_->SetBusUp(false);
-}
-
-void Service::BusUp() {
-  if (!bus_up_) {
-    spdlog::info("{} is up", settings_.interface);
-  }
-  bus_up_ = true;
-  loop_->SetBusUp(true);
+  spdlog::log(bus > bus_ ? spdlog::level::err : spdlog::level::info, "{} {}", settings_.interface, what);
+  const Time retry = bus == Bus::kGone ? kRetryPeriod : 0s;
+  Set(retry_timer_, retry, retry);
+  bus_ = bus;
+  loop_->SetBusUp(bus == Bus::kUp);
 }
 
 void Service::Retry() {
   if (socket_.Reopen()) {
-    spdlog::info("{} is back", settings_.interface);
-    Set(retry_timer_, 0s, 0s);
+    SetBus(Bus::kDown, "is back");  // up as soon as a frame goes through
   }
 }
 

@@ -46,8 +46,8 @@ class Service {
   void RunCycle(Trigger trigger);
   void Send(std::span<const can::Frame> frames);
   void Arm(Trigger last);
-  void BusDown(const char* why);
-  void BusUp();
+  enum class Bus : std::uint8_t { kUp, kDown, kGone };  // from good to bad
+  void SetBus(Bus bus, const char* what);
   void Retry();
 
   ServiceSettings settings_;
@@ -59,7 +59,7 @@ class Service {
   FileDescriptor epoll_;
   EventLog log_;
   Notifier notifier_;
-  bool bus_up_ = true;
+  Bus bus_ = Bus::kUp;
   int unsent_cycles_ = 0;  // in a row
   std::uint64_t queue_full_ = 0;
   std::int64_t cycles_ = 0;

@@ -1,0 +1,178 @@
+// The real lpvmpcd on a real CAN interface, and opposite to it a scripted vehicle on a straight route at 10
+// m/s.
+#pragma once
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "can/socket.hpp"
+#include "dbc/vehicle_bus.hpp"
+#include "tests/daemon/bus_frames.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/temp_dir.hpp"
+
+namespace lpvmpcd {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+inline constexpr const char* kStraightRoute =
+    "[route]\nstart = {X = 0.0, Y = 0.0, psi = 0.0}\nspeed = 10.0\n"
+    "pieces = [{kind = \"straight\", length = 1000.0}]\n[road]\nleft = 4.0\nright = 4.0\n";
+
+struct CommandPair {
+  dbc::SteeringCommand steering;
+  dbc::AccelerationCommand acceleration;
+};
+
+class DaemonOnBus : public testing::Test {
+ protected:
+  explicit DaemonOnBus(std::string interface = "vcan0") : interface_(std::move(interface)) {
+    std::ofstream(folder_ / "route.toml") << kStraightRoute;
+    // A loaded machine may stop for some tenths of a second: stale a little later, and plans that last
+    // longer.
+    std::ofstream(folder_ / "daemon.toml") << "[route]\nfile = \"route.toml\"\n[monitor]\nstale_periods = 8\n"
+                                              "[controller]\nhorizon = 20\n";
+  }
+
+  void StartDaemon() {
+    daemon_.emplace(std::vector<std::string>{LPVMPCD, "--config", (folder_ / "daemon.toml").string(),
+                                             "--interface", interface_});
+    ASSERT_TRUE(LogSays("listening on " + interface_));
+  }
+  bool LogSays(const std::string& text) {
+    return test_support::WaitUntil([&] { return daemon_->Stderr().find(text) != std::string::npos; });
+  }
+
+  void Put(const std::vector<can::Frame>& frames) {
+    for (const can::Frame& frame : frames) {
+      EXPECT_EQ(socket_.Send(frame), can::SendStatus::kSent);
+    }
+  }
+
+  // Reads the next pair of commands; nothing if there is none in time. Holds what holds of every pair: CRC,
+  // counters in sequence, both alike, enabled in Active and SafeStop alone. Notes the status that comes by.
+  std::optional<CommandPair> NextPair(std::chrono::milliseconds timeout = 2s) {
+    const auto end = steady_clock::now() + timeout;
+    can::Received received;
+    for (;;) {
+      if (socket_.Receive(received) != can::ReceiveStatus::kFrame) {
+        if (steady_clock::now() >= end) return std::nullopt;
+        static_cast<void>(can::WaitReadable(socket_.fd(), std::min(timeout, 20ms)));
+        continue;
+      }
+      const can::Frame& frame = received.frame;
+      const auto message = bus_.Decode(frame.id, frame.Payload());
+      if (!message) {
+        ADD_FAILURE() << "a frame that is none of ours: " << frame.id;
+        continue;
+      }
+      const dbc::E2eCheck check = bus_.Check(frame.id, frame.Payload());
+      if (const auto* status = std::get_if<dbc::ControllerStatus>(&*message)) {
+        EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+        status_ = *status;
+      } else if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+        EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+        if (command_counter_) {
+          EXPECT_EQ(check.counter, dbc::NextCounter(*command_counter_));
+        }
+        command_counter_ = check.counter;
+        pair_.steering = *steering;
+      } else if (const auto* acceleration = std::get_if<dbc::AccelerationCommand>(&*message)) {
+        EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+        EXPECT_EQ(check.counter, command_counter_);
+        pair_.acceleration = *acceleration;
+        const bool enable =
+            pair_.steering.mode == dbc::Mode::kActive || pair_.steering.mode == dbc::Mode::kSafeStop;
+        EXPECT_EQ(pair_.steering.enable, enable);
+        EXPECT_EQ(pair_.acceleration.enable, enable);
+        EXPECT_EQ(pair_.acceleration.mode, pair_.steering.mode);
+        EXPECT_EQ(pair_.acceleration.state_counter, pair_.steering.state_counter);
+        return pair_;
+      }
+    }
+  }
+
+  // Forgets what was sent so far, and where the counters stood.
+  void Forget() {
+    can::Received ignored;
+    while (socket_.Receive(ignored) != can::ReceiveStatus::kWouldBlock) {
+    }
+    command_counter_.reset();
+  }
+
+  // The pair that answers the state set sent last; those that a timer brought forth before it are passed
+  // over.
+  CommandPair Answer() {
+    while (const auto pair = NextPair()) {
+      if (pair->steering.state_counter == vehicle_.last_state_counter()) return *pair;
+      EXPECT_EQ(pair->steering.state_counter, 15);
+    }
+    ADD_FAILURE() << "no answer to state " << int{vehicle_.last_state_counter()} << "; the daemon says:\n"
+                  << daemon_->Stderr();
+    return {};
+  }
+  // One period with everything in it, as fast as the daemon answers.
+  CommandPair Period() {
+    vehicle_.pose.X += 0.5;
+    Put(vehicle_.All());
+    return Answer();
+  }
+  // One period in real time without a usable state: `instead` is sent in its place.
+  void PeriodWithoutState(const std::vector<can::Frame>& instead) {
+    vehicle_.pose.X += 0.5;
+    Put(vehicle_.Request());
+    Put(vehicle_.Obstacles());
+    Put(instead);
+    std::this_thread::sleep_for(50ms);
+  }
+  // Sends periods in real time, what `state` returns in the state's place, until a pair in SafeStop comes.
+  // The pairs until then, that one included.
+  template <typename State>
+  std::vector<CommandPair> UntilSafeStop(State state) {
+    std::vector<CommandPair> pairs;
+    for (int i = 0; i < 40; ++i) {
+      PeriodWithoutState(state());
+      while (const auto pair = NextPair(1ms)) {
+        pairs.push_back(*pair);
+        if (pair->steering.mode == dbc::Mode::kSafeStop) return pairs;
+      }
+    }
+    ADD_FAILURE() << "no SafeStop; the daemon says:\n" << daemon_->Stderr();
+    return pairs;
+  }
+  // From start to Active.
+  void Engage() {
+    vehicle_.request.engage = false;
+    for (int i = 0; i < 50 && Period().steering.mode != dbc::Mode::kStandby; ++i) {
+    }
+    Period();
+    vehicle_.request.engage = true;
+    const CommandPair pair = Period();
+    ASSERT_EQ(pair.steering.mode, dbc::Mode::kActive) << daemon_->Stderr();
+  }
+  // The fault that the status tells; the status follows its commands.
+  dbc::FaultCode Fault() {
+    const auto end = steady_clock::now() + 300ms;
+    while (steady_clock::now() < end && !NextPair(10ms)) {
+    }
+    return status_.fault_code;
+  }
+
+  std::string interface_;
+  test_support::TempDir folder_;
+  dbc::VehicleBus bus_;
+  FakeVehicle vehicle_{bus_};
+  can::Socket socket_{interface_};
+  std::optional<test_support::Process> daemon_;
+  std::optional<std::uint8_t> command_counter_;
+  CommandPair pair_;  // under way
+  dbc::ControllerStatus status_;
+};
+
+}  // namespace lpvmpcd

@@ -1,0 +1,220 @@
+#include <gmock/gmock.h>
+
+#include "tests/integration/daemon_on_bus.hpp"
+
+namespace lpvmpcd {
+namespace {
+
+using dbc::Mode;
+using test_support::Run;
+using testing::HasSubstr;
+
+void Ip(const std::vector<std::string>& arguments) {
+  std::vector<std::string> argv{"ip", "link"};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  const auto outcome = Run(argv);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+}
+
+class DaemonVcan : public DaemonOnBus {};
+
+TEST_F(DaemonVcan, CommandsNothingUntilTheDriverAsksAndThenAnswersEveryState) {
+  StartDaemon();
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(Period().steering.enable);
+  }
+  vehicle_.request.engage = true;
+  for (int i = 0; i < 60; ++i) {
+    const CommandPair pair = Period();
+    EXPECT_EQ(pair.steering.mode, Mode::kActive);
+    EXPECT_EQ(pair.steering.plan_age, 0);
+    // The vehicle is where it shall be.
+    EXPECT_NEAR(pair.steering.delta, 0.0, 0.01);
+    EXPECT_NEAR(pair.acceleration.acceleration, 0.0, 0.1);
+  }
+}
+
+TEST_F(DaemonVcan, RequestHeldFromTheFirstFrameOnDoesNotEngage) {
+  vehicle_.request.engage = true;
+  StartDaemon();
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(Period().steering.enable);
+  }
+}
+
+TEST_F(DaemonVcan, OverrideWinsAtOnceAndNeedsANewRequest) {
+  StartDaemon();
+  for (const bool brake : {true, false}) {
+    Engage();
+    (brake ? vehicle_.request.brake : vehicle_.request.steering_override) = true;
+    EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+    vehicle_.request = {.engage = true};
+    for (int i = 0; i < 5; ++i) {
+      EXPECT_FALSE(Period().steering.enable);
+    }
+  }
+  EXPECT_THAT(daemon_->Stderr(), HasSubstr("mode Active -> Standby: driver override"));
+}
+
+TEST_F(DaemonVcan, StaleStateIsBridgedByThePlanAndThenEndsInAControlledStop) {
+  StartDaemon();
+  Engage();
+  const auto pairs = UntilSafeStop([] { return std::vector<can::Frame>{}; });
+  ASSERT_GE(pairs.size(), 2U);
+  for (std::size_t i = 0; i + 1 < pairs.size(); ++i) {
+    EXPECT_EQ(pairs[i].steering.mode, Mode::kActive);
+    EXPECT_EQ(pairs[i].steering.state_counter, 15);
+    EXPECT_EQ(pairs[i].steering.plan_age, i + 1);
+  }
+  double a = pairs.back().acceleration.acceleration;
+  EXPECT_NEAR(a, -1.5, 0.1);  // no jump
+  for (int i = 0; i < 3; ++i) {
+    PeriodWithoutState({});
+  }
+  std::optional<CommandPair> last;
+  while (const auto pair = NextPair(1ms)) {
+    last = pair;
+  }
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->steering.mode, Mode::kSafeStop);
+  EXPECT_NEAR(last->acceleration.acceleration, -3.0, 0.01);
+  EXPECT_EQ(Fault(), dbc::FaultCode::kStateStale);
+
+  // The vehicle comes back, standing.
+  vehicle_.motion.upsilon = 0.0;
+  const CommandPair pair = Period();
+  EXPECT_EQ(pair.steering.mode, Mode::kStandby);
+}
+
+TEST_F(DaemonVcan, CorruptedStatesChangeNothingAndManyOfThemStopTheVehicle) {
+  StartDaemon();
+  Engage();
+  const auto corrupted = [this] {
+    auto frames = vehicle_.State();
+    frames[0].data[6] ^= std::byte{0x40};  // a position hundreds of metres away, if it were believed
+    return frames;
+  };
+  PeriodWithoutState(corrupted());
+  while (const auto pair = NextPair(1ms)) {
+    EXPECT_EQ(pair->steering.mode, Mode::kActive);
+    EXPECT_EQ(pair->steering.state_counter, 15);
+  }
+  EXPECT_EQ(Period().steering.mode, Mode::kActive);  // a single one is bridged
+
+  for (const CommandPair& pair : UntilSafeStop(corrupted)) {
+    EXPECT_EQ(pair.steering.state_counter, 15);
+    EXPECT_NEAR(pair.steering.delta, 0.0, 0.01);
+  }
+  EXPECT_EQ(Fault(), dbc::FaultCode::kStateInvalid);
+  EXPECT_TRUE(LogSays("refused: wrong CRC"));
+}
+
+TEST_F(DaemonVcan, RepeatedStateGetsNoAnswerAndMakesNothingFresh) {
+  StartDaemon();
+  Engage();
+  vehicle_.pose.X += 0.5;
+  const auto frozen = vehicle_.State();
+  Put(vehicle_.Request());
+  Put(vehicle_.Obstacles());
+  Put(frozen);
+  EXPECT_EQ(Answer().steering.mode, Mode::kActive);
+  for (const CommandPair& pair : UntilSafeStop([&] { return frozen; })) {
+    EXPECT_EQ(pair.steering.state_counter, 15);
+  }
+  EXPECT_TRUE(LogSays("refused: repeated counter"));
+}
+
+TEST_F(DaemonVcan, KilledAndRestartedItCommandsNothingByItself) {
+  StartDaemon();
+  Engage();
+  daemon_->Signal(SIGKILL);
+  ASSERT_EQ(daemon_->Wait(5s), 128 + SIGKILL);
+  Forget();
+  StartDaemon();
+  CommandPair pair = Period();
+  EXPECT_EQ(pair.steering.mode, Mode::kInit);
+  for (int i = 0; i < 20; ++i) {
+    pair = Period();  // engage is held
+    EXPECT_FALSE(pair.steering.enable);
+  }
+  EXPECT_EQ(pair.steering.mode, Mode::kStandby);
+  Engage();
+}
+
+TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
+  StartDaemon();
+  Engage();
+  Ip({"set", interface_, "down"});
+  EXPECT_TRUE(LogSays(interface_ + " is down"));
+  EXPECT_TRUE(LogSays("mode Active -> SafeStop: bus down"));
+  std::this_thread::sleep_for(300ms);
+  EXPECT_TRUE(daemon_->Running());
+  Ip({"set", interface_, "up"});
+  EXPECT_TRUE(LogSays(interface_ + " is up"));
+  Forget();
+
+  // It goes on braking until the vehicle stands, then it waits for a new request.
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(Period().steering.mode, Mode::kSafeStop);
+  }
+  vehicle_.motion.upsilon = 0.0;
+  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+  vehicle_.motion.upsilon = 10.0;
+  EXPECT_FALSE(Period().steering.enable);
+  Engage();
+}
+
+TEST_F(DaemonVcan, SigtermAndSigintSendALastPairThatIsNotEnabled) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Forget();
+    StartDaemon();
+    Engage();
+    daemon_->Signal(signal);
+    EXPECT_EQ(daemon_->Wait(5s), 0);
+    std::optional<CommandPair> last;
+    while (const auto pair = NextPair(1ms)) {
+      last = pair;
+    }
+    ASSERT_TRUE(last);
+    EXPECT_FALSE(last->steering.enable);
+    EXPECT_FALSE(last->acceleration.enable);
+    EXPECT_EQ(last->steering.state_counter, 15);
+    EXPECT_THAT(daemon_->Stderr(), HasSubstr("stopped after"));
+  }
+}
+
+// An interface of its own, since it is deleted.
+class DaemonOnPassingInterface : public DaemonOnBus {
+ protected:
+  DaemonOnPassingInterface() : DaemonOnBus("vcan9") {}
+  static void SetUpTestSuite() { Create(); }
+  static void TearDownTestSuite() { Ip({"del", "vcan9"}); }
+  static void Create() {
+    Ip({"add", "dev", "vcan9", "type", "vcan"});
+    Ip({"set", "vcan9", "up"});
+  }
+};
+
+TEST_F(DaemonOnPassingInterface, InterfaceDeletedAndMadeAgainIsTakenUp) {
+  StartDaemon();
+  Engage();
+  Ip({"del", interface_});
+  EXPECT_TRUE(LogSays(interface_ + " is gone"));
+  EXPECT_TRUE(daemon_->Running());
+  can::Received ignored;
+  EXPECT_TRUE(test_support::WaitUntil(
+      [&] { return socket_.Receive(ignored) == can::ReceiveStatus::kInterfaceGone; }));
+  Create();
+  EXPECT_TRUE(LogSays(interface_ + " is back"));
+  EXPECT_TRUE(LogSays(interface_ + " is up"));
+  EXPECT_TRUE(socket_.Reopen());
+  Forget();
+  vehicle_.motion.upsilon = 0.0;
+  CommandPair pair = Period();
+  EXPECT_NE(pair.steering.mode, Mode::kActive);
+  pair = Period();
+  EXPECT_EQ(pair.steering.mode, Mode::kStandby);
+}
+
+}  // namespace
+}  // namespace lpvmpcd
