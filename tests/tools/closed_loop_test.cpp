@@ -1,0 +1,68 @@
+#include "tools/closed_loop.hpp"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "dbc/vehicle_bus.hpp"
+
+namespace {
+
+const std::filesystem::path kDemo = LPVMPC_SOURCE_DIR "/scenarios/demo";
+
+struct Drive {
+  sim::Summary summary;
+  std::vector<can::Frame> frames;
+};
+
+Drive DriveDemo(const std::string& controller = "lpv") {
+  lpvmpcd::Config config = lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml");
+  lpvmpcd::SelectController(config, controller);
+  Drive drive;
+  drive.summary =
+      tools::DriveClosedLoop(sim::LoadScenario(kDemo / "scenario.toml"), config,
+                             {.frame = [&](const can::Frame& frame) { drive.frames.push_back(frame); }});
+  return drive;
+}
+
+TEST(ClosedLoop, TrustRegionDrivesTheDemoClearOfObstaclesAndInsideTheRoad) {
+  const sim::Summary summary = DriveDemo().summary;
+  EXPECT_TRUE(summary.completed);
+  EXPECT_EQ(summary.infeasible_steps, 0);
+  EXPECT_GE(summary.min_clearance_m.value_or(-1.0), 0.0);
+  EXPECT_GE(summary.min_road_margin_m.value_or(-1.0), 0.0);
+  EXPECT_LT(summary.rms_lateral_error_m.value_or(1e9), 0.5);
+}
+
+TEST(ClosedLoop, StandardLpvmpcBecomesInfeasibleInTheSameScenario) {
+  EXPECT_GT(DriveDemo("lpv-standard").summary.infeasible_steps, 0);
+}
+
+TEST(ClosedLoop, SameScenarioGivesTheSameFramesButForTheTimeThatSolvingTook) {
+  const dbc::VehicleBus bus;
+  const std::uint32_t status = bus.Find("ControllerStatus")->id;
+  const Drive a = DriveDemo(), b = DriveDemo();
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    if (a.frames[i].id == status) continue;
+    ASSERT_TRUE(can::SameOnWire(a.frames[i], b.frames[i])) << "frame " << i << " with id " << a.frames[i].id;
+  }
+}
+
+TEST(ClosedLoop, NothingIsCommandedBeforeEngagement) {
+  const dbc::VehicleBus bus;
+  bool engaged = false;
+  int enabled = 0;
+  for (const can::Frame& frame : DriveDemo().frames) {
+    const auto message = bus.Decode(frame.id, frame.Payload());
+    ASSERT_TRUE(message);
+    if (const auto* request = std::get_if<dbc::DriverRequest>(&*message))
+      engaged = engaged || request->engage;
+    if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+      ASSERT_TRUE(engaged || !steering->enable);
+      enabled += static_cast<int>(steering->enable);
+    }
+  }
+  EXPECT_GT(enabled, 1000);
+}
+
+}  // namespace

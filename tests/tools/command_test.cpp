@@ -1,0 +1,118 @@
+// The three programs at their command lines: what goes wrong is one clear line on stderr and a status that is not 0.
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "tests/support/process.hpp"
+#include "tests/support/temp_dir.hpp"
+
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kDemo = LPVMPC_SOURCE_DIR "/scenarios/demo";
+
+void ExpectOneLine(const std::vector<std::string>& argv, const testing::Matcher<std::string>& line) {
+  const test_support::Outcome outcome = test_support::Run(argv);
+  EXPECT_NE(outcome.status, 0) << argv[0];
+  EXPECT_LT(outcome.status, 128) << "ended by a signal";
+  EXPECT_THAT(outcome.err, line);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+}
+
+std::string Write(const test_support::TempDir& folder, const std::string& name, const std::string& text) {
+  const std::string file = (folder.path() / name).string();
+  std::ofstream(file) << text;
+  return file;
+}
+
+TEST(Lpvmpc, UnknownOptionIsNamed) {
+  ExpectOneLine({LPVMPC, "run", "--scenari", "x"}, AllOf(StartsWith("lpvmpc: "), HasSubstr("--scenari")));
+}
+
+TEST(Lpvmpc, CommandIsRequired) {
+  ExpectOneLine({LPVMPC}, StartsWith("lpvmpc: "));
+}
+
+TEST(Lpvmpc, MissingScenarioIsNamed) {
+  ExpectOneLine({LPVMPC, "run", "--scenario", "/nowhere/s.toml"}, HasSubstr("/nowhere/s.toml"));
+}
+
+TEST(Lpvmpc, MissingLogIsNamed) {
+  ExpectOneLine({LPVMPC, "decode", "/nowhere.log"}, HasSubstr("/nowhere.log"));
+}
+
+TEST(Lpvmpc, UnknownControllerIsNamed) {
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--controller", "pid"},
+                AllOf(HasSubstr("pid"), HasSubstr("lpv-standard")));
+}
+
+TEST(Lpvmpc, ObstacleOutsideTheMapIsNamedWithFileLineKeyValueAndRange) {
+  const test_support::TempDir folder;
+  const std::string file =
+      Write(folder, "s.toml",
+            "name = \"x\"\nroute = \"" + kDemo + "/route.toml\"\n" +
+                "[[obstacle]]\nid = 1\nX = 5000.0\nY = 0.0\nr_x = 1.0\nr_y = 1.0\nside = \"left\"\n");
+  ExpectOneLine({LPVMPC, "run", "--scenario", file},
+                AllOf(HasSubstr(file + ":5:"), HasSubstr("X"), HasSubstr("5000"), HasSubstr("1500")));
+}
+
+TEST(Lpvmpc, LogThatCannotBeWrittenIsNamed) {
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--log", "/nowhere/out.log"},
+                HasSubstr("/nowhere/out.log"));
+}
+
+TEST(Lpvmpc, HorizonLongerThanTheRouteIsNamed) {
+  ExpectOneLine({LPVMPC, "bench", "step", "--horizon", "1", "--repeat", "1", "--json"},
+                HasSubstr("horizon 1"));
+}
+
+TEST(Lpvmpc, RunPrintsItsSummaryAsJson) {
+  const test_support::Outcome outcome =
+      test_support::Run({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* key :
+       {"completed", "steps", "infeasible_steps", "min_clearance_m", "min_road_margin_m",
+        "rms_lateral_error_m", "solve_time_us", "median", "p99", "max", "deadline_misses"}) {
+    EXPECT_THAT(outcome.out, HasSubstr('"' + std::string(key) + '"'));
+  }
+}
+
+TEST(Lpvmpc, FailedExpectationIsToldAndGivesStatusOne) {
+  const test_support::TempDir folder;
+  const std::string file = Write(folder, "s.toml",
+                                 "name = \"x\"\nroute = \"" + kDemo + "/route.toml\"\ndaemon_config = \"" +
+                                     kDemo + "/lpvmpcd.toml\"\n[expect]\nmin_road_margin_m = 100.0\n");
+  const test_support::Outcome outcome = test_support::Run({LPVMPC, "run", "--scenario", file});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.out, HasSubstr("min_road_margin_m"));
+}
+
+TEST(LpvmpcSim, UnknownOptionIsNamed) {
+  ExpectOneLine({LPVMPC_SIM, "--interface", "vcan0", "--scenario", "x", "--fast"}, HasSubstr("--fast"));
+}
+
+TEST(LpvmpcSim, MissingScenarioIsNamed) {
+  ExpectOneLine({LPVMPC_SIM, "--interface", "vcan0", "--scenario", "/nowhere/s.toml"},
+                HasSubstr("/nowhere/s.toml"));
+}
+
+TEST(Lpvmpcd, CheckConfigNamesTheFileAndTheLineOfAWrongValue) {
+  const test_support::TempDir folder;
+  const std::string file = Write(folder, "c.toml",
+                                 "[bus]\ninterface = \"vcan0\"\n[route]\nfile = \"" + kDemo +
+                                     "/route.toml\"\n[controller]\nhorizon = -3\n");
+  ExpectOneLine({LPVMPCD, "--config", file, "--check-config"},
+                AllOf(HasSubstr(file + ":6:"), HasSubstr("horizon"), HasSubstr("-3"), HasSubstr("[")));
+}
+
+TEST(Lpvmpcd, CheckConfigAcceptsTheDemos) {
+  EXPECT_EQ(test_support::Run({LPVMPCD, "--config", kDemo + "/lpvmpcd.toml", "--check-config"}).status, 0);
+}
+
+}  // namespace

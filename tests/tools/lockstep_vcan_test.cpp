@@ -1,0 +1,118 @@
+// The daemon and the simulated vehicle as processes of their own on a real interface, held against the same drive in
+// memory.
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "can/candump_log.hpp"
+#include "dbc/vehicle_bus.hpp"
+#include "tests/support/process.hpp"
+#include "tests/support/temp_dir.hpp"
+
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string kRepository = LPVMPC_SOURCE_DIR;
+const std::string kScenario = kRepository + "/scenarios/demo/scenario.toml";
+
+std::vector<can::Frame> ReadLog(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<can::Frame> frames;
+  for (std::string line; std::getline(in, line);) {
+    const auto entry = can::ParseCandumpLine(line);
+    if (!entry) throw std::runtime_error(file.string() + ": " + entry.error());
+    if (*entry) frames.push_back((*entry)->frame);
+  }
+  return frames;
+}
+
+std::size_t Lines(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return static_cast<std::size_t>(
+      std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n'));
+}
+
+std::vector<can::Frame> WithId(const std::vector<can::Frame>& frames, const std::set<std::uint32_t>& ids) {
+  std::vector<can::Frame> selected;
+  for (const can::Frame& frame : frames) {
+    if (ids.contains(frame.id)) selected.push_back(frame);
+  }
+  return selected;
+}
+
+class LockstepOnVcan : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = std::make_unique<test_support::TempDir>();
+    const test_support::Outcome drive =
+        test_support::Run({kRepository + "/scripts/drive", kScenario,
+                           kRepository + "/scenarios/demo/lpvmpcd.toml", folder->path().string()},
+                          180s);
+    status = drive.status;
+    if (status != 0) std::fprintf(stderr, "%s%s", drive.out.c_str(), drive.err.c_str());
+  }
+  static void TearDownTestSuite() { folder.reset(); }
+
+  static std::unique_ptr<test_support::TempDir> folder;
+  static int status;
+};
+
+std::unique_ptr<test_support::TempDir> LockstepOnVcan::folder;
+int LockstepOnVcan::status = -1;
+
+TEST_F(LockstepOnVcan, DriveMeetsTheScenariosExpectations) {
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
+  const std::filesystem::path log = folder->path() / "memory.log";
+  ASSERT_EQ(test_support::Run({LPVMPC, "run", "--scenario", kScenario, "--log", log.string()}).status, 0);
+  const dbc::VehicleBus bus;
+  const std::set<std::uint32_t> ids{bus.Find("SteeringCommand")->id, bus.Find("AccelerationCommand")->id};
+  std::vector<can::Frame> on_bus = WithId(ReadLog(folder->path() / "candump.log"), ids);
+  const std::vector<can::Frame> in_memory = WithId(ReadLog(log), ids);
+  // On the bus the daemon's last words follow, a pair that is not enabled.
+  ASSERT_EQ(on_bus.size(), in_memory.size() + 2);
+  for (std::size_t i = in_memory.size(); i < on_bus.size(); ++i) {
+    const auto message = bus.Decode(on_bus[i].id, on_bus[i].Payload());
+    ASSERT_TRUE(message);
+    if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) EXPECT_FALSE(steering->enable);
+    if (const auto* pedals = std::get_if<dbc::AccelerationCommand>(&*message)) EXPECT_FALSE(pedals->enable);
+  }
+  for (std::size_t i = 0; i < in_memory.size(); ++i) {
+    ASSERT_TRUE(can::SameOnWire(on_bus[i], in_memory[i])) << "command frame " << i;
+  }
+}
+
+TEST_F(LockstepOnVcan, EveryFrameOnTheBusPassesItsChecks) {
+  const dbc::VehicleBus bus;
+  std::map<std::string, int> count;
+  for (const can::Frame& frame : ReadLog(folder->path() / "candump.log")) {
+    ASSERT_EQ(bus.Check(frame.id, frame.Payload()).verdict, dbc::E2eVerdict::kOk);
+    ++count[bus.Find(frame.id)->name];
+  }
+  for (const dbc::MessageInfo& message : bus.messages()) EXPECT_GT(count[message.name], 1000) << message.name;
+}
+
+TEST_F(LockstepOnVcan, CanplayerPlaysTheLogAgain) {
+  const std::filesystem::path log = folder->path() / "candump.log";
+  const std::filesystem::path replay = folder->path() / "replay.log";
+  test_support::Process candump({"sh", "-c", "exec candump -r 67108864 -L vcan1 >" + replay.string()});
+  ASSERT_TRUE(test_support::WaitUntil([&] {  // candump listens once it shows a frame
+    test_support::Run({"cansend", "vcan1", "7FF#"});
+    return Lines(replay) > 0;
+  }));
+  const std::size_t before = Lines(replay);
+  const test_support::Outcome player =
+      test_support::Run({"canplayer", "-t", "-I", log.string(), "vcan1=vcan0"}, 60s);
+  EXPECT_EQ(player.status, 0) << player.err;
+  EXPECT_TRUE(test_support::WaitUntil([&] { return Lines(replay) == before + Lines(log); }))
+      << Lines(replay) - before << " of " << Lines(log) << " frames";
+}
+
+}  // namespace
