@@ -172,6 +172,12 @@ std::span<const can::Frame> ControlLoop::Disable() {
   return frames_;
 }
 
+std::span<const can::Frame> ControlLoop::Announce() {
+  frames_.clear();
+  EmitStatus();
+  return frames_;
+}
+
 void ControlLoop::CountStep(Trigger trigger) {
   if (trigger == Trigger::kTimer) {
     ++step_;
@@ -302,35 +308,43 @@ bool ControlLoop::Emit(const control::LimitedCommand& command, Trigger trigger) 
   return true;
 }
 
+template <typename Message>
+void ControlLoop::EmitReport(const Message& message) {
+  frames_.emplace_back();
+  if (!gate_.Encode(message, frames_.back())) {
+    frames_.pop_back();  // a figure that is no number is not told
+  }
+}
+
+void ControlLoop::EmitStatus() {
+  const int iterations = last_solve_ != nullptr ? last_solve_->iterations : 0;
+  EmitReport(
+      dbc::ControllerStatus{.mode = mode_.mode,
+                            .fault_code = report_.fault,
+                            .solver_status = report_.solver,
+                            .iterations = static_cast<std::uint8_t>(std::clamp(iterations, 0, 255)),
+                            .solve_time = ToSeconds(report_.step_time),
+                            .deadline_misses = static_cast<std::uint16_t>(report_.deadline_misses % 1024)});
+}
+
 void ControlLoop::EmitReports() {
-  const auto emit = [this](const auto& message) {
-    frames_.emplace_back();
-    if (!gate_.Encode(message, frames_.back())) {
-      frames_.pop_back();  // a figure that is no number is not told
-    }
-  };
+  EmitStatus();
   const control::Plan* solve = last_solve_;
-  emit(dbc::ControllerStatus{
-      .mode = mode_.mode,
-      .fault_code = report_.fault,
-      .solver_status = report_.solver,
-      .iterations = static_cast<std::uint8_t>(solve != nullptr ? std::clamp(solve->iterations, 0, 255) : 0),
-      .solve_time = ToSeconds(report_.step_time),
-      .deadline_misses = static_cast<std::uint16_t>(report_.deadline_misses % 1024)});
-  emit(dbc::SchedulingHealth{.scheduling_error = solve != nullptr ? solve->scheduling_error : 0.0,
-                             .active_rows = static_cast<std::uint16_t>(
-                                 solve != nullptr ? std::clamp(solve->active_trust_rows, 0, 1023) : 0),
-                             .largest_slack = solve != nullptr ? solve->largest_slack : 0.0});
+  EmitReport(dbc::SchedulingHealth{.scheduling_error = solve != nullptr ? solve->scheduling_error : 0.0,
+                                   .active_rows = static_cast<std::uint16_t>(
+                                       solve != nullptr ? std::clamp(solve->active_trust_rows, 0, 1023) : 0),
+                                   .largest_slack = solve != nullptr ? solve->largest_slack : 0.0});
   if (!settings_.send_horizon || new_plan_ == nullptr) {
     return;
   }
-  emit(dbc::HorizonHeader{
+  EmitReport(dbc::HorizonHeader{
       .points = static_cast<std::uint8_t>(std::min<std::size_t>(new_plan_->z.size(), kMaxPoints)),
       .state_counter = states_.state().counter,
       .step = ToSeconds(settings_.period)});
   for (std::size_t i = 0; i < std::min(new_plan_->z.size(), kMaxPoints); ++i) {
     const control::State& z = new_plan_->z[i];
-    emit(dbc::HorizonPoint{.index = static_cast<std::uint8_t>(i), .X = z[control::kX], .Y = z[control::kY]});
+    EmitReport(
+        dbc::HorizonPoint{.index = static_cast<std::uint8_t>(i), .X = z[control::kX], .Y = z[control::kY]});
   }
 }
 

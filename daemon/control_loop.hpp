@@ -80,6 +80,9 @@ class ControlLoop {
   // a new plan its horizon. They belong to the loop and stay until the next call.
   [[nodiscard]] std::span<const can::Frame> Cycle(Time now, Trigger trigger);
 
+  // A status alone, before the first cycle: somebody is here.
+  [[nodiscard]] std::span<const can::Frame> Announce();
+
   // Both commands once more, not enabled: the last words of a daemon that ends.
   [[nodiscard]] std::span<const can::Frame> Disable();
 
@@ -101,6 +104,9 @@ class ControlLoop {
   [[nodiscard]] control::LimitResult Measured() const;
   [[nodiscard]] dbc::FaultCode Fault(const ModeInputs& inputs) const;
   [[nodiscard]] bool Emit(const control::LimitedCommand& command, Trigger trigger);
+  template <typename Message>
+  void EmitReport(const Message& message);
+  void EmitStatus();
   void EmitReports();
 
   [[nodiscard]] int PlanAge() const { return static_cast<int>(step_ - plan_step_); }

@@ -97,9 +97,7 @@ Service::Service(const ServiceSettings& settings, ControlLoop& loop)
 void Service::Run() {
   spdlog::info("listening on {}{}", settings_.interface, settings_.lockstep ? " in lock step" : "");
   notifier_.Ready();
-  if (!settings_.lockstep) {
-    Set(timer_, settings_.timeout, 0s);
-  }
+  Set(timer_, settings_.timeout, 0s);
   for (;;) {
     std::array<epoll_event, 4> events{};
     const int n = ::epoll_wait(epoll_.get(), events.data(), static_cast<int>(events.size()), -1);
@@ -118,7 +116,7 @@ void Service::Run() {
       ReadSocket();
     }
     if (ready(timer_.get()) && Expired(timer_)) {
-      RunCycle(Trigger::kTimer);
+      ReactToTimer();
     }
     if (ready(retry_timer_.get()) && Expired(retry_timer_)) {
       Retry();
@@ -167,6 +165,15 @@ void Service::ReadSocket() {
         SetBus(Bus::kDown, std::strerror(socket_.last_error()));
         return;
     }
+  }
+}
+
+void Service::ReactToTimer() {
+  if (settings_.lockstep && cycles_ == 0) {
+    Send(loop_->Announce());  // the vehicle waits for a sign of life before its first state
+    Set(timer_, settings_.period, 0s);
+  } else {
+    RunCycle(Trigger::kTimer);
   }
 }
 

@@ -19,8 +19,8 @@ struct ServiceSettings {
   Time period = std::chrono::milliseconds(50);   // of the cycles that the timer starts
   Time timeout = std::chrono::milliseconds(75);  // after a state, before the timer starts one
   // Time is the number of cycles times the period, so that a run with a plant that waits for its answers is
-  // repeatable to the bit, however fast. The timer is a last resort then (kLockstepTimeout), and no cycle
-  // runs before the first state.
+  // repeatable to the bit, however fast. The timer is a last resort then (kLockstepTimeout). No cycle runs before
+  // the first state; until then the status alone is sent, so that the plant knows when to begin.
   bool lockstep = false;
 };
 
@@ -43,6 +43,7 @@ class Service {
   [[nodiscard]] Time Now() const;
   [[nodiscard]] Time Received(const can::Frame& frame) const;
   void ReadSocket();
+  void ReactToTimer();
   void RunCycle(Trigger trigger);
   void Send(std::span<const can::Frame> frames);
   void Arm(Trigger last);

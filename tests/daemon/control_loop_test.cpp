@@ -461,6 +461,21 @@ TEST_F(ControlLoopTest, BeforeAnyStateTheTimerSendsNothingEnabled) {
   }
 }
 
+TEST_F(ControlLoopTest, AnnouncingItselfIsNoCycle) {
+  for (int i = 0; i < 3; ++i) {
+    const auto frames = loop_.Announce();
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_EQ(Decode<dbc::ControllerStatus>(frames[0]).mode, Mode::kInit);
+  }
+  EXPECT_EQ(loop_.report().cycles, 0U);
+  Advance();
+  for (const can::Frame& frame : vehicle_.All()) {
+    if (!loop_.Receive(frame, now_)) continue;
+    const can::Frame first = loop_.Cycle(now_, Trigger::kState)[0];
+    EXPECT_EQ(bus_.Check(first.id, first.Payload()).counter, 0);
+  }
+}
+
 TEST_F(ControlLoopTest, CycleThatEndsLaterThanAPeriodAfterItsStateIsADeadlineMiss) {
   Engage();
   stopwatch_step_ = 51ms;
