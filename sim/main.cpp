@@ -43,8 +43,9 @@ int Drive(const sim::Options& options) {
                   {.lockstep = options.lockstep,
                    .controller_timeout = std::chrono::duration_cast<std::chrono::milliseconds>(timeout)});
   const sim::Summary summary = run.Run();
-  const std::string text = options.json ? sim::ToJson(summary) : sim::ToText(summary);
-  std::fputs(text.c_str(), stdout);
+  // JSON on stdout is for a machine; who watches still gets the summary.
+  std::fputs(sim::ToText(summary).c_str(), options.json ? stderr : stdout);
+  if (options.json) std::printf("%s\n", sim::ToJson(summary).c_str());
   return summary.passed() ? kPassed : kFailed;
 }
 
