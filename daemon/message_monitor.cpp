@@ -69,8 +69,9 @@ std::variant<Accepted, RxFault> MessageMonitor::Check(const can::Frame& frame, T
   Accepted accepted{.kind = static_cast<RxMessage>(index)};
   std::optional<RxFault> fault = Judge(entry, frame, accepted.counter, accepted.lost);
   std::optional<dbc::Message> message;
-  if (!fault && !(message = bus_->Decode(frame.id, frame.Payload()))) {
-    fault = RxFault::kInvalidValue;
+  if (!fault) {
+    message = bus_->Decode(frame.id, frame.Payload());
+    fault = message ? std::nullopt : std::optional(RxFault::kInvalidValue);
   }
   if (fault) {
     entry.rejected = true;
