@@ -43,8 +43,8 @@ LinearModel LpvModel::Discrete(const Scheduling& p, double t_s, Discretisation m
 }
 
 // With p frozen only w = [ν ω] has dynamics of its own, ẇ = F w + g δ; everything else integrates it:
-//   w(t)   = Φ w₀ + Γ₁ g δ,   ∫w = Γ₁ w₀ + Γ₂ g δ,   ∫∫w = Γ₂ w₀ + Γ₃ g δ,   Φ = e^{Ft},  Γₖ₊₁ = ∫ Γₖ,  Γ₀ =
-//   Φ ψ(t)   = ψ₀ + ∫ω,  υ(t) = υ₀ + a t + ν̂ ∫ω,  X(t) = X₀ + cos ψ̂ ∫υ − sin ψ̂ ∫ν, and Y likewise.
+//   w(t) = Φ w₀ + Γ₁ g δ,   ∫w = Γ₁ w₀ + Γ₂ g δ,   ∫∫w = Γ₂ w₀ + Γ₃ g δ,   Φ = e^{Ft},  Γₖ₊₁ = ∫ Γₖ,  Γ₀ = Φ
+//   ψ(t) = ψ₀ + ∫ω,  υ(t) = υ₀ + a t + ν̂ ∫ω,  X(t) = X₀ + cos ψ̂ ∫υ − sin ψ̂ ∫ν, and Y likewise.
 // Γₖ comes from its Taylor series over a short step, which is then doubled:
 //   Γ₁(2h) = Γ₁ + Φ Γ₁,  Γ₂(2h) = Γ₂ + h Γ₁ + Φ Γ₂,  Γ₃(2h) = Γ₃ + h Γ₂ + h²/2 Γ₁ + Φ Γ₃.
 LinearModel LpvModel::ZeroOrderHold(const Scheduling& p, double t_s) const {

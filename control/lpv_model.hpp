@@ -1,6 +1,6 @@
 // The LPV embedding of the bicycle, ż = A_c(p) z + B_c(p) u with p = [υ ν δ ψ] (paper, Section LPV Model):
-// equal to f(z, u) where p is taken from z and u themselves. The paper's β_f, β_r, γ_f, γ_r are 2 C_α/m and 2
-// l C_α/I_z; its typeset "2C{af}/m" is a slip.
+// equal to f(z, u) where p is taken from z and u themselves and υ ≥ kMinUpsilon. The paper's β_f, β_r, γ_f, γ_r
+// are 2 C_α/m and 2 l C_α/I_z; its typeset "2C{af}/m" is a slip.
 //
 // The position's rows use the frozen heading ψ̂, so within one prediction a change of ψ does not move X and Y.
 #pragma once
@@ -24,8 +24,7 @@ struct LinearModel {
 };
 
 enum class Discretisation {
-  kEuler,  // I + t_s A_c, t_s B_c (paper, eq:dis_LPV): unstable lateral dynamics below about 9.3 m/s at 0.05
-           // s
+  kEuler,  // I + t_s A_c, t_s B_c (paper, eq:dis_LPV): lateral dynamics unstable below 10 m/s at 0.05 s
   kZeroOrderHold,  // exact for constant p and u, at any speed
 };
 

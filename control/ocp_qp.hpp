@@ -1,7 +1,8 @@
 // The optimal-control quadratic program that every controller here solves:
 //
-//   min   Σ_{i=0..N} ½ xᵢᵀ diag(Q_i) xᵢ + q_iᵀ xᵢ  +  Σ_{i=0..N-1} ½ uᵢᵀ diag(R_i) uᵢ + r_iᵀ uᵢ  +  Σ_soft ½
-//   ρ ε² s.t.  x_0 given,   x_{i+1} = A_i xᵢ + B_i uᵢ + c_i
+//   min   Σ_{i=0..N} ½ xᵢᵀ diag(Q_i) xᵢ + q_iᵀ xᵢ  +  Σ_{i=0..N-1} ½ uᵢᵀ diag(R_i) uᵢ + r_iᵀ uᵢ
+//         +  Σ_soft ½ ρ ε²
+//   s.t.  x_0 given,   x_{i+1} = A_i xᵢ + B_i uᵢ + c_i
 //         lo − ε ≤ C xᵢ + D uᵢ ≤ hi + ε     for every row of stage i; ε = 0 where the row is hard
 //
 // A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 it is convex.

@@ -51,7 +51,7 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
     if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
   };
   const int N = qp.horizon();
-  raise(residual.dynamics, (point.stages[0].x - qp.x0).cwiseAbs().maxCoeff());
+  raise(residual.dynamics, (point.stages[0].x - qp.x0).cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
   for (int i = 0; i <= N; ++i) {
     const auto& stage = qp.stages[static_cast<std::size_t>(i)];
     const auto& at = point.stages[static_cast<std::size_t>(i)];
@@ -62,7 +62,9 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
       const auto& next = point.stages[static_cast<std::size_t>(i) + 1];
       gradient_x += stage.A.transpose() * next.pi;
       gradient_u = stage.R.cwiseProduct(at.u) + stage.r + stage.B.transpose() * next.pi;
-      raise(residual.dynamics, (stage.A * at.x + stage.B * at.u + stage.c - next.x).cwiseAbs().maxCoeff());
+      raise(residual.dynamics, (stage.A * at.x + stage.B * at.u + stage.c - next.x)
+                                   .cwiseAbs()
+                                   .template maxCoeff<Eigen::PropagateNaN>());
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
@@ -89,8 +91,9 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
       }
     }
     // x_0 is given: its gradient is free.
-    if (i > 0) raise(residual.stationarity, gradient_x.cwiseAbs().maxCoeff());
-    if (!terminal) raise(residual.stationarity, gradient_u.cwiseAbs().maxCoeff());
+    if (i > 0) raise(residual.stationarity, gradient_x.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
+    if (!terminal)
+      raise(residual.stationarity, gradient_u.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
   }
   return residual;
 }

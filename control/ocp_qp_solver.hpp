@@ -45,7 +45,8 @@ class OcpQpSolver {
   // allocate.
   //   kSolved            solution() satisfies the conditions of optimality to the tolerance
   //   kInfeasible        solution()'s multipliers prove it (ProvesInfeasible)
-  //   kIterationLimit    neither within max_iterations; solution() is the last iterate
+  //   kIterationLimit    neither within max_iterations; solution() is the last iterate. So ends also a
+  //                      contradiction by little between rows whose inputs have no hard bounds
   //   kNumericalFailure  data not finite, or a factorisation broke down; solution() is meaningless
   QpResult Solve(const Qp& qp, const Point* guess = nullptr);
 
@@ -80,7 +81,7 @@ class OcpQpSolver {
     double r_epsilon = 0.0;
     double inverse_s = 0.0;  // 1 / (ρ + w_lo + w_hi); 0 of a hard row
     double w = 0.0;
-    VectorX C_K = VectorX::Zero();  // C + D K; not used where the row bounds a state alone
+    VectorX C_K = VectorX::Zero();  // C + KᵀD; not used where the row bounds a state alone
     double depsilon = 0.0;
   };
   // Deviations from the base, the optimum without rows, and the recursion's results.
@@ -98,7 +99,7 @@ class OcpQpSolver {
   void StartCold(const Qp& qp);
   bool StartFrom(const Qp& qp, const Point& guess);
   void StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x, const VectorU& u,
-                double least, double mu, const RowMultiplier& at_least);
+                double share, double mu, const RowMultiplier& at_least);
   double Residuals(const Qp& qp);
   bool Factorise(const Qp& qp, bool with_rows);
   void Step(const Qp& qp, double target, bool second_order);

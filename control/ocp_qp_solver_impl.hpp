@@ -9,15 +9,16 @@
 //   C x + D u + ε − lo = t_lo,   hi + ε − C x − D u = t_hi,   λ t = σμ.
 // Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a curvature on C dx + D du,
 //   w = w_lo + w_hi − (w_lo − w_hi)² / (ρ + w_lo + w_hi),   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi likewise
-//   (last term: soft rows),
+// (the last term in soft rows only),
 // and a gradient term. δ regularises the step alone, dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤
 // 1/δ and so the digits of P, and vanishes with dλ. What remains is
 //   min ½ dxᵀ(Q + Σ w CCᵀ)dx + duᵀ(Σ w DCᵀ)dx + ½ duᵀ(R + Σ w DDᵀ)du + g_xᵀdx + g_uᵀdu,  dx' = A dx + B du,
-// which the Riccati recursion solves. It is written with the closed loop A_K = A + B K and C_K = C + D K, as
+// which the Riccati recursion solves. It is written with the closed loop A_K = A + B K and C_K = C + KᵀD, as
 // a sum of positive semidefinite terms: the usual difference of large terms loses all digits where w → ∞ in a
 // row with D ≠ 0.
-//   P = Q + KᵀRK + A_Kᵀ P' A_K + Σ w C_Kᵀ C_K,   K = −H_uu⁻¹ H_ux,   H_uu = R + BᵀP'B + Σ w DDᵀ,  H_ux =
-//   BᵀP'A + Σ w DCᵀ p = r_x + Kᵀ r_u + A_Kᵀ p' + Σ γ C_Kᵀ,       k = −H_uu⁻¹ h_u,    h_u = r_u + Bᵀp' + Σ γ D
+//   P = Q + KᵀRK + A_Kᵀ P' A_K + Σ w C_K C_Kᵀ,   K = −H_uu⁻¹ H_ux,
+//   H_uu = R + BᵀP'B + Σ w DDᵀ,                  H_ux = BᵀP'A + Σ w DCᵀ,
+//   p = r_x + Kᵀ r_u + A_Kᵀ p' + Σ γ C_K,        k = −H_uu⁻¹ h_u,    h_u = r_u + Bᵀp' + Σ γ D
 // with the gradient γ of each row; r_x, r_u are the gradients of the Lagrangian at the iterate.
 #pragma once
 
@@ -64,6 +65,33 @@ void AddRowGradient(const Row& row, double factor, VectorX& gradient_x, VectorU&
   }
 }
 
+// 0 if every entry is finite, not a number otherwise.
+template <typename Matrix>
+double ZeroIfFinite(const Matrix& matrix) {
+  return (0.0 * matrix).sum();
+}
+
+// True if every number is finite, but for the infinite bounds that are absent. Comparisons alone would not
+// do: a bound that is not a number looks absent, a weight that is not one looks like a hard row's.
+template <int kNx, int kNu>
+bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
+  double zero = ZeroIfFinite(qp.x0);
+  for (std::size_t i = 0; i < qp.stages.size(); ++i) {
+    const auto& stage = qp.stages[i];
+    zero += ZeroIfFinite(stage.Q) + ZeroIfFinite(stage.q);
+    if (i + 1 < qp.stages.size()) {
+      zero += ZeroIfFinite(stage.A) + ZeroIfFinite(stage.B) + ZeroIfFinite(stage.c) + ZeroIfFinite(stage.R) +
+              ZeroIfFinite(stage.r);
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      if (!(row.lo < kNoBound) || !(row.hi > -kNoBound)) return false;
+      zero += ZeroIfFinite(row.C) + ZeroIfFinite(row.D) + 0.0 * row.rho;
+    }
+  }
+  return zero == 0.0;
+}
+
 }  // namespace detail
 
 template <int kNx, int kNu>
@@ -73,7 +101,7 @@ OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
 template <int kNx, int kNu>
 QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
   QpResult result;
-  if (!SolveBase(qp)) return result;
+  if (!detail::HasFiniteData(qp) || !SolveBase(qp)) return result;
   if (ShiftRows(qp)) {
     WriteSolution(qp);
     result.kkt_residual = EvaluateKkt(qp, point_).Max();
@@ -164,10 +192,12 @@ bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
   return satisfied;
 }
 
+// Every distance is at least that share of its row's width (of 1 in a wider row) and 1e-3.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x,
-                                     const VectorU& u, double least, double mu,
+                                     const VectorU& u, double share, double mu,
                                      const RowMultiplier& at_least) {
+  const double least = share * std::clamp(row.hi - row.lo, 0.0, 1.0) + 1e-3;
   const double value = detail::RowValue(row, x, u);
   const auto side = [&](Side& s, double distance, double lambda) {
     s.t = std::max(distance, least);
@@ -178,7 +208,7 @@ void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& wor
   work.epsilon = row.rho > 0.0 ? (work.lo.lambda + work.hi.lambda) / row.rho : 0.0;
 }
 
-// From the base, every distance at least a tenth of its row's width.
+// From the base.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::StartCold(const Qp& qp) {
   constexpr double kStartMu = 1.0;
@@ -188,8 +218,7 @@ void OcpQpSolver<kNx, kNu>::StartCold(const Qp& qp) {
     work.pi.setZero();
   }
   detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
-    const double least = 0.1 * std::min(1.0, row.hi - row.lo) + 1e-3;
-    StartRow(row, work, stage.x, stage.u, least, kStartMu, {});
+    StartRow(row, work, stage.x, stage.u, 0.1, kStartMu, {});
   });
 }
 
@@ -211,8 +240,7 @@ bool OcpQpSolver<kNx, kNu>::StartFrom(const Qp& qp, const Point& guess) {
       const double value = detail::RowValue(row, work.x, work.u);
       const double violation = std::max(at.lo.bound - value, value - at.hi.bound);
       if (!(violation - guess.stages[i].slack[j] <= kMaxViolation)) return false;
-      const double least = 0.02 * std::min(1.0, row.hi - row.lo) + 1e-3;
-      StartRow(row, at, work.x, work.u, least, kStartMu, guess.stages[i].lambda[j]);
+      StartRow(row, at, work.x, work.u, 0.02, kStartMu, guess.stages[i].lambda[j]);
     }
   }
   return true;
@@ -257,8 +285,8 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
         raise(at.r_epsilon);
       }
     }
-    if (i > 0) raise(work.r_x.cwiseAbs().maxCoeff());
-    if (i < N) raise(work.r_u.cwiseAbs().maxCoeff());
+    if (i > 0) raise(work.r_x.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
+    if (i < N) raise(work.r_u.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
   }
   raise(row_residual_);
   mu_ = complementarity / std::max(sides_, 1);
