@@ -1,0 +1,315 @@
+#include "control/ocp_qp_solver.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "control/ocp_qp_solver_impl.hpp"
+#include "gtest/gtest.h"
+#include "tests/control/qp_instance.hpp"
+#include "tests/control/random_qp.hpp"
+
+namespace control {
+namespace {
+
+using Qp = OcpQp<8, 2>;
+using Point = OcpQpPoint<8, 2>;
+using Solver = OcpQpSolver<8, 2>;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Recorded {
+  double cost;
+  Eigen::Vector2d u;
+};
+
+std::map<std::string, Recorded> RecordedOptima() {
+  std::ifstream file(LPVMPC_TEST_DATA "/qp/optimal.csv");
+  std::map<std::string, Recorded> optima;
+  std::string line;
+  std::getline(file, line);  // header
+  while (std::getline(file, line)) {
+    std::istringstream fields(line);
+    std::string name, cost, delta, a;
+    std::getline(fields, name, ',');
+    std::getline(fields, cost, ',');
+    std::getline(fields, delta, ',');
+    std::getline(fields, a, ',');
+    optima[name] = {std::stod(cost), {std::stod(delta), std::stod(a)}};
+  }
+  return optima;
+}
+
+Qp ReadInstance(const std::string& name) {
+  return testing::ReadQpInstance(LPVMPC_TEST_DATA "/qp/" + name);
+}
+
+TEST(OcpQpSolver, RecordedInstancesReachTheirOptimum) {
+  const auto optima = RecordedOptima();
+  ASSERT_EQ(optima.size(), 7u);
+  for (const auto& [name, optimum] : optima) {
+    const Qp qp = ReadInstance(name);
+    Solver solver(qp.horizon());
+    EXPECT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << name;
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << name;
+    // The recorded optima are themselves exact to about 1e-5 in the cost, whose absolute positions take the
+    // digits, and so to 2e-5 in the acceleration where that is loosely determined, as in s7trN15_0041.
+    const double tolerance = name == "s7trN15_0041.qp" ? 2e-5 : 1e-5;
+    EXPECT_LT((solver.solution().stages[0].u - optimum.u).cwiseAbs().maxCoeff(), tolerance) << name;
+    EXPECT_LT(EvaluateCost(qp, solver.solution()), optimum.cost + 1e-12 * std::abs(optimum.cost)) << name;
+  }
+}
+
+TEST(OcpQpSolver, GuessLeadsToTheSameOptimum) {
+  for (const char* name : {"s0trN8_0044.qp", "s7trN15_0044.qp", "s7trN15_0047.qp"}) {
+    const Qp qp = ReadInstance(name);
+    Solver solver(qp.horizon());
+    const QpResult cold = solver.Solve(qp);
+    ASSERT_EQ(cold.status, SolverStatus::kSolved);
+    const Point optimum = solver.solution();
+    const QpResult warm = solver.Solve(qp, &optimum);
+    EXPECT_EQ(warm.status, SolverStatus::kSolved);
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6);
+    EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-6);
+  }
+  // The solution of the instance recorded three steps earlier, and one of a quite different problem.
+  for (const auto& [guess_name, name] : {std::pair{"s0trN8_0041.qp", "s0trN8_0044.qp"},
+                                         {"s7trN15_0041.qp", "s7trN15_0044.qp"},
+                                         {"s7trN15_0044.qp", "s7trN15_0047.qp"},
+                                         {"s7trN15_0011.qp", "s7trN15_0044.qp"}}) {
+    const Qp qp = ReadInstance(name), guess_qp = ReadInstance(guess_name);
+    Solver solver(qp.horizon()), guess_solver(qp.horizon());
+    ASSERT_EQ(guess_solver.Solve(guess_qp).status, SolverStatus::kSolved);
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+    const Eigen::Vector2d cold = solver.solution().stages[0].u;
+    EXPECT_EQ(solver.Solve(qp, &guess_solver.solution()).status, SolverStatus::kSolved);
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << name;
+    EXPECT_LT((solver.solution().stages[0].u - cold).cwiseAbs().maxCoeff(), 1e-6) << name;
+  }
+}
+
+// The optimality conditions as one dense linear system in (x_1..x_N, u_0..u_{N-1}, π_1..π_N).
+TEST(OcpQpSolver, UnconstrainedProblemIsTheDenseLinearSystemsSolution) {
+  testing::Random random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    Qp qp = testing::RandomQp<8, 2>(random, {});
+    for (auto& stage : qp.stages) stage.ClearRows();
+    const int N = qp.horizon(), n = 18 * N;
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n);
+    const auto X = [](int i) { return 8 * (i - 1); };
+    const auto U = [&](int i) { return 8 * N + 2 * i; };
+    const auto Pi = [&](int i) { return 10 * N + 8 * (i - 1); };
+    for (int i = 0; i < N; ++i) {
+      const auto& stage = qp.stages[static_cast<std::size_t>(i)];
+      const auto& next = qp.stages[static_cast<std::size_t>(i) + 1];
+      // ½xᵀQx + qᵀx + πᵀ(A x + B u + c − x'), by x', u and π.
+      M.block<8, 8>(X(i + 1), X(i + 1)) = next.Q.asDiagonal();
+      M.block<8, 8>(X(i + 1), Pi(i + 1)) = -Eigen::Matrix<double, 8, 8>::Identity();
+      M.block<8, 8>(Pi(i + 1), X(i + 1)) = -Eigen::Matrix<double, 8, 8>::Identity();
+      rhs.segment<8>(X(i + 1)) = -next.q;
+      M.block<2, 2>(U(i), U(i)) = stage.R.asDiagonal();
+      M.block<2, 8>(U(i), Pi(i + 1)) = stage.B.transpose();
+      M.block<8, 2>(Pi(i + 1), U(i)) = stage.B;
+      rhs.segment<2>(U(i)) = -stage.r;
+      rhs.segment<8>(Pi(i + 1)) = -stage.c;
+      if (i > 0) {
+        M.block<8, 8>(X(i), Pi(i + 1)) = stage.A.transpose();
+        M.block<8, 8>(Pi(i + 1), X(i)) = stage.A;
+      } else {
+        rhs.segment<8>(Pi(1)) -= stage.A * qp.x0;
+      }
+    }
+    const Eigen::VectorXd dense = M.partialPivLu().solve(rhs);
+    Solver solver(N);
+    const QpResult result = solver.Solve(qp);
+    EXPECT_EQ(result.status, SolverStatus::kSolved);
+    EXPECT_EQ(result.iterations, 0);
+    for (int i = 0; i < N; ++i) {
+      const auto& at = solver.solution().stages[static_cast<std::size_t>(i)];
+      const auto& next = solver.solution().stages[static_cast<std::size_t>(i) + 1];
+      EXPECT_LT((at.u - dense.segment<2>(U(i))).cwiseAbs().maxCoeff(), 1e-10);
+      EXPECT_LT((next.x - dense.segment<8>(X(i + 1))).cwiseAbs().maxCoeff(), 1e-10);
+      EXPECT_LT((next.pi - dense.segment<8>(Pi(i + 1))).cwiseAbs().maxCoeff(), 1e-10);
+    }
+  }
+}
+
+// One state, one input, one step: x₁ = x₀ + u, cost ½ (x₁ − 1)² + ½ u², whose optimum is x₁ = ½ (1 + x₀).
+OcpQp<1, 1> Scalar(double x0) {
+  OcpQp<1, 1> qp(1);
+  qp.x0[0] = x0;
+  qp.stages[0].A(0, 0) = 1.0;
+  qp.stages[0].B(0, 0) = 1.0;
+  qp.stages[0].R[0] = 1.0;
+  qp.stages[1].Q[0] = 1.0;
+  qp.stages[1].q[0] = -1.0;
+  return qp;
+}
+
+TEST(OcpQpSolver, SoftRowWithContradictoryBoundsTakesTheSlackBetweenThem) {
+  for (const double rho : {0.5, 10.0, 1e4}) {
+    OcpQp<1, 1> qp = Scalar(0.0);
+    ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.0, -1.0, rho));  // 1 − ε ≤ x ≤ −1 + ε: ε ≥ 1 + |x|
+    OcpQpSolver<1, 1> solver(1);
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho;
+    // min ½(x−1)² + ½x² + ½ρ(1+|x|)²: 2x − 1 + ρ(1 + x) = 0 if that x is positive, 0 otherwise.
+    const double x = std::max(0.0, (1.0 - rho) / (2.0 + rho));
+    EXPECT_NEAR(solver.solution().stages[1].x[0], x, 1e-6) << rho;
+    EXPECT_NEAR(solver.solution().stages[1].slack[0], 1.0 + x, 1e-6) << rho;
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-7) << rho;
+  }
+}
+
+TEST(OcpQpSolver, SoftRowGivesWayByItsWeight) {
+  for (const double rho : {0.0, 0.1, 1.0, 1e3, 1e6}) {
+    OcpQp<1, 1> qp = Scalar(0.0);
+    ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, 0.2, rho));
+    OcpQpSolver<1, 1> solver(1);
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho;
+    EXPECT_NEAR(solver.solution().stages[1].x[0], (1.0 + 0.2 * rho) / (2.0 + rho), 1e-7) << rho;
+  }
+}
+
+TEST(OcpQpSolver, OneSidedRowHoldsOnItsSideAlone) {
+  OcpQpSolver<1, 1> solver(1);
+  OcpQp<1, 1> qp = Scalar(0.0);
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, 0.7, kNoBound));
+  ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+  EXPECT_NEAR(solver.solution().stages[1].x[0], 0.7, 1e-7);
+  qp.stages[1].rows[0].lo = -100.0;
+  ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+  EXPECT_NEAR(solver.solution().stages[1].x[0], 0.5, 1e-7);
+  qp.stages[1].rows[0].lo = -kNoBound;
+  qp.stages[1].rows[0].hi = -3.0;
+  ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+  EXPECT_NEAR(solver.solution().stages[1].x[0], -3.0, 1e-7);
+}
+
+TEST(OcpQpSolver, EqualBoundsAreAnEquation) {
+  OcpQpSolver<1, 1> solver(1);
+  for (const double value : {-2.0, 0.3, 0.5, 40.0}) {
+    OcpQp<1, 1> qp = Scalar(0.0);
+    ASSERT_TRUE(qp.stages[0].AddRow(Eigen::Matrix<double, 1, 1>(0.5), Eigen::Matrix<double, 1, 1>(2.0),
+                                    2.0 * value, 2.0 * value));
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << value;
+    EXPECT_NEAR(solver.solution().stages[0].u[0], value, 1e-7);
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-7) << value;
+  }
+}
+
+TEST(OcpQpSolver, ContradictionIsProven) {
+  OcpQpSolver<1, 1> solver(1);
+  const auto expect_proof = [&](const OcpQp<1, 1>& qp, const char* what) {
+    EXPECT_EQ(solver.Solve(qp).status, SolverStatus::kInfeasible) << what;
+    EXPECT_TRUE(ProvesInfeasible(qp, solver.solution())) << what;
+  };
+  OcpQp<1, 1> qp = Scalar(0.0);
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.0, -1.0));
+  expect_proof(qp, "bounds crossed");
+  qp = Scalar(0.0);
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.0, kNoBound));
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, 0.999));
+  ASSERT_TRUE(qp.stages[0].AddInputBound(0, -10.0, 10.0));
+  expect_proof(qp, "two rows");
+  qp = Scalar(0.0);
+  ASSERT_TRUE(qp.stages[0].AddInputBound(0, -1.0, 1.0));
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.01, kNoBound));
+  expect_proof(qp, "out of the input's reach");
+  qp = Scalar(3.0);
+  ASSERT_TRUE(qp.stages[0].AddStateBound(0, -1.0, 1.0));
+  expect_proof(qp, "the given state is outside");
+  qp = Scalar(0.0);
+  ASSERT_TRUE(
+      qp.stages[0].AddRow(Eigen::Matrix<double, 1, 1>(0.0), Eigen::Matrix<double, 1, 1>(0.0), 1.0, kNoBound));
+  expect_proof(qp, "0 ≥ 1");
+}
+
+TEST(OcpQpSolver, ContradictionBetweenUnboundedInputsIsNeverSolved) {
+  OcpQpSolver<1, 1> solver(1);
+  for (const double gap : {1e-6, 1e-3, 1.0, 100.0}) {
+    OcpQp<1, 1> qp = Scalar(0.0);
+    ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.0, kNoBound));
+    ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, 1.0 - gap));
+    const SolverStatus status = solver.Solve(qp).status;
+    EXPECT_TRUE(status == SolverStatus::kInfeasible || status == SolverStatus::kIterationLimit) << gap;
+  }
+}
+
+TEST(OcpQpSolver, FirstIterationIsNotTheLastIfOnlyOneIsAllowed) {
+  const Qp qp = ReadInstance("s7trN15_0041.qp");
+  Solver solver(qp.horizon(), {.max_iterations = 1});
+  const QpResult result = solver.Solve(qp);
+  EXPECT_EQ(result.status, SolverStatus::kIterationLimit);
+  EXPECT_EQ(result.iterations, 1);
+  EXPECT_GT(result.kkt_residual, 1e-8);
+}
+
+TEST(OcpQpSolver, SolvesAgainAfterAFailure) {
+  const Qp qp = ReadInstance("s0trN8_0041.qp");
+  Solver solver(qp.horizon());
+  ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+  const Eigen::Vector2d u = solver.solution().stages[0].u;
+  Qp broken = qp;
+  broken.stages[3].A(2, 2) = kNan;
+  ASSERT_EQ(solver.Solve(broken).status, SolverStatus::kNumericalFailure);
+  ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+  EXPECT_EQ(solver.solution().stages[0].u, u);
+}
+
+TEST(OcpQpSolver, CostWithoutCurvatureInAnInputIsAFailure) {
+  OcpQp<1, 1> qp = Scalar(0.0);
+  qp.stages[0].R[0] = 0.0;
+  qp.stages[0].B(0, 0) = 0.0;
+  EXPECT_EQ((OcpQpSolver<1, 1>(1).Solve(qp).status), SolverStatus::kNumericalFailure);
+}
+
+// Each number of the problem in turn, in a problem with active rows and in one without.
+TEST(OcpQpSolver, AnyNumberThatIsNotFiniteIsAFailure) {
+  for (const char* name : {"s0trN8_0044.qp", "s0trN8_0005.qp"}) {
+    Qp qp = ReadInstance(name);
+    Solver solver(qp.horizon());
+    const auto expect_failure = [&](double& number, double bad, const char* what, std::size_t stage) {
+      const double good = number;
+      number = bad;
+      EXPECT_EQ(solver.Solve(qp).status, SolverStatus::kNumericalFailure)
+          << what << " = " << bad << " in stage " << stage;
+      number = good;
+    };
+    const auto expect_failures = [&](auto& matrix, const char* what, std::size_t stage) {
+      for (const double bad : {kNan, kInfinity, -kInfinity}) {
+        for (Eigen::Index k = 0; k < matrix.size(); ++k) expect_failure(matrix.data()[k], bad, what, stage);
+      }
+    };
+    expect_failures(qp.x0, "x0", 0);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{3}, qp.stages.size() - 1}) {
+      auto& stage = qp.stages[i];
+      if (i + 1 < qp.stages.size()) {
+        expect_failures(stage.A, "A", i);
+        expect_failures(stage.B, "B", i);
+        expect_failures(stage.c, "c", i);
+        expect_failures(stage.R, "R", i);
+        expect_failures(stage.r, "r", i);
+      }
+      expect_failures(stage.Q, "Q", i);
+      expect_failures(stage.q, "q", i);
+      for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+        expect_failures(stage.rows[j].C, "C", i);
+        expect_failures(stage.rows[j].D, "D", i);
+        expect_failure(stage.rows[j].lo, kNan, "lo", i);
+        expect_failure(stage.rows[j].lo, kInfinity, "lo", i);
+        expect_failure(stage.rows[j].hi, kNan, "hi", i);
+        expect_failure(stage.rows[j].hi, -kInfinity, "hi", i);
+        expect_failure(stage.rows[j].rho, kNan, "rho", i);
+        expect_failure(stage.rows[j].rho, kInfinity, "rho", i);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace control

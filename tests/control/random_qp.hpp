@@ -1,0 +1,80 @@
+// Random OCP-QPs that are feasible, or not, by construction.
+#pragma once
+
+#include <cmath>
+
+#include "control/ocp_qp_impl.hpp"
+#include "tests/control/random.hpp"
+
+namespace control::testing {
+
+struct RandomQpOptions {
+  double growth = 1.0;      // scale of A: beyond 1 the dynamics are unstable
+  double equalities = 0.0;  // share of hard rows with lo = hi
+  int max_horizon = 10;
+};
+
+// Hard rows hold for a trajectory drawn at random with inputs within [-1, 1]; soft rows hold where they may.
+template <int kNx, int kNu>
+OcpQp<kNx, kNu> RandomQp(Random& random, const RandomQpOptions& options) {
+  using VectorX = Eigen::Matrix<double, kNx, 1>;
+  using VectorU = Eigen::Matrix<double, kNu, 1>;
+  const int N = random.Integer(2, options.max_horizon);
+  OcpQp<kNx, kNu> qp(N);
+  qp.x0 = random.Filled<VectorX>(2.0);
+  VectorX x = qp.x0;
+  for (int i = 0; i <= N; ++i) {
+    auto& stage = qp.stages[static_cast<std::size_t>(i)];
+    stage.Q = random.Filled<VectorX>(2.0).cwiseMax(0.0);
+    stage.q = random.Filled<VectorX>(2.0);
+    const VectorU u = random.Filled<VectorU>(1.0);
+    if (i < N) {
+      stage.R = random.Filled<VectorU>(1.0).cwiseAbs() + VectorU::Constant(0.1);
+      stage.r = random.Filled<VectorU>(2.0);
+      stage.A = options.growth * random.Filled<Eigen::Matrix<double, kNx, kNx>>(1.5 / std::sqrt(kNx));
+      stage.B = random.Filled<Eigen::Matrix<double, kNx, kNu>>(1.0);
+      stage.c = random.Filled<VectorX>(0.3);
+      for (int k = 0; k < kNu; ++k) (void)stage.AddInputBound(k, -1.0, 1.0);
+    }
+    for (int count = random.Integer(0, 4); count > 0; --count) {
+      const bool soft = random.Chance(0.4), unit = i > 0 && random.Chance(0.4);
+      VectorX C = VectorX::Unit(random.Integer(0, kNx - 1));
+      VectorU D = VectorU::Zero();
+      if (!unit) {
+        C = random.Filled<VectorX>(1.0);
+        if (i < N) D = random.Filled<VectorU>(1.0);
+      }
+      const double value = soft ? random.Uniform(-3.0, 3.0) : C.dot(x) + D.dot(u);
+      const double rho = soft ? std::pow(10.0, random.Uniform(-1.0, 3.0)) : -1.0;
+      if (!soft && random.Chance(options.equalities)) {
+        (void)stage.AddRow(C, D, value, value);
+        continue;
+      }
+      const bool has_lo = random.Chance(0.7), has_hi = !has_lo || random.Chance(0.5);
+      (void)stage.AddRow(C, D, has_lo ? value - random.Uniform(0.01, 1.0) : -kNoBound,
+                         has_hi ? value + random.Uniform(0.01, 1.0) : kNoBound, rho);
+    }
+    if (i < N) x = (stage.A * x + stage.B * u + stage.c).eval();
+  }
+  return qp;
+}
+
+// Adds a hard row on a state that lies `beyond` outside what inputs within [-1, 1] can reach.
+template <int kNx, int kNu>
+void MakeInfeasible(Random& random, OcpQp<kNx, kNu>& qp, double beyond) {
+  using VectorX = Eigen::Matrix<double, kNx, 1>;
+  using VectorU = Eigen::Matrix<double, kNu, 1>;
+  const int k = random.Integer(1, qp.horizon());
+  const VectorX C = random.Filled<VectorX>(1.0);
+  VectorX adjoint = C;
+  double largest = 0.0;
+  for (int i = k; i-- > 0;) {
+    const auto& stage = qp.stages[static_cast<std::size_t>(i)];
+    largest += adjoint.dot(stage.c) + (stage.B.transpose() * adjoint).cwiseAbs().sum();
+    adjoint = (stage.A.transpose() * adjoint).eval();
+  }
+  largest += adjoint.dot(qp.x0);
+  (void)qp.stages[static_cast<std::size_t>(k)].AddRow(C, VectorU::Zero(), largest + beyond, kNoBound);
+}
+
+}  // namespace control::testing
