@@ -38,7 +38,7 @@ struct LpvMpcSettings {
 
   double obstacle_margin = 0.1;  // [m] by which obstacles are enlarged
 
-  QpSettings qp;
+  QpSettings qp{};
 };
 
 class LpvMpc final : public Controller {
