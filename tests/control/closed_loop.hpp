@@ -33,7 +33,7 @@ inline Reference StraightPath(int count, double speed) {
 class ClosedLoop {
  public:
   ClosedLoop(Controller& controller, Reference reference)
-      : controller_(controller),
+      : controller_(&controller),
         reference_(std::move(reference)),
         window_(static_cast<std::size_t>(controller.horizon()) + 1),
         z_(reference_[0]) {}
@@ -48,7 +48,7 @@ class ClosedLoop {
   // The controller's answer to the present state; nothing moves.
   const Plan& Ask() {
     reference_.Window(k_, window_);
-    return controller_.Step(Asked());
+    return controller_->Step(Asked());
   }
   [[nodiscard]] ControllerInput Asked() const {
     return {.z = z_, .u_previous = u_, .reference = window_, .road = road_, .obstacles = obstacles_};
@@ -67,7 +67,7 @@ class ClosedLoop {
   }
 
  private:
-  Controller& controller_;
+  Controller* controller_;
   Reference reference_;
   VehicleModel model_{VehicleParameters{}};
   std::vector<State> window_;

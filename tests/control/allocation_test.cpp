@@ -1,0 +1,105 @@
+// Nothing in the control step takes memory from the heap: neither by operator new (tests/daemon/allocations.hpp) nor
+// by malloc and its kin, which Eigen calls for a matrix of dynamic size and which the linker's --wrap leads here.
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+
+#include "control/lpv_mpc.hpp"
+#include "gtest/gtest.h"
+#include "tests/control/closed_loop.hpp"
+#include "tests/control/qp_instance.hpp"
+#include "tests/daemon/allocations.hpp"
+
+static std::size_t c_allocations = 0;
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t count, std::size_t size);
+void* __real_realloc(void* memory, std::size_t size);
+
+void* __wrap_malloc(std::size_t size) {
+  ++c_allocations;
+  return __real_malloc(size);
+}
+void* __wrap_calloc(std::size_t count, std::size_t size) {
+  ++c_allocations;
+  return __real_calloc(count, size);
+}
+void* __wrap_realloc(void* memory, std::size_t size) {
+  ++c_allocations;
+  return __real_realloc(memory, size);
+}
+}
+
+namespace control {
+namespace {
+
+using testing::ClosedLoop;
+
+std::size_t Taken() {
+  return lpvmpcd::Allocations() + c_allocations;
+}
+
+TEST(Allocations, AreCounted) {
+  std::size_t before = Taken();
+  const auto number = std::make_unique<int>(7);
+  EXPECT_EQ(Taken() - before, 1u);
+  before = Taken();
+  volatile Eigen::Index size = 50;
+  const Eigen::VectorXd vector = Eigen::VectorXd::Constant(size, *number);
+  EXPECT_EQ(Taken() - before, 1u);
+  EXPECT_EQ(vector.size(), 50);
+}
+
+TEST(Allocations, SolverTakesNone) {
+  const OcpQp<8, 2> qp = testing::ReadQpInstance(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp");
+  OcpQp<8, 2> infeasible = qp, broken = qp;
+  ASSERT_TRUE(infeasible.stages[4].AddStateBound(2, 90.0, kNoBound));
+  broken.stages[2].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  OcpQpSolver<8, 2> solver(qp.horizon()), impatient(qp.horizon(), {.max_iterations = 2});
+  const OcpQpPoint<8, 2> guess(qp.horizon());
+  const std::size_t before = Taken();
+  const SolverStatus cold = solver.Solve(qp).status;
+  const SolverStatus warm = solver.Solve(qp, &guess).status;
+  const SolverStatus proven = solver.Solve(infeasible).status;
+  const SolverStatus failed = solver.Solve(broken).status;
+  const SolverStatus stopped = impatient.Solve(qp).status;
+  EXPECT_EQ(Taken(), before);
+  EXPECT_EQ(cold, SolverStatus::kSolved);
+  EXPECT_EQ(warm, SolverStatus::kSolved);
+  EXPECT_EQ(proven, SolverStatus::kInfeasible);
+  EXPECT_EQ(failed, SolverStatus::kNumericalFailure);
+  EXPECT_EQ(stopped, SolverStatus::kIterationLimit);
+}
+
+TEST(Allocations, ControlStepTakesNone) {
+  for (const auto method : {Discretisation::kEuler, Discretisation::kZeroOrderHold}) {
+    LpvMpc mpc(VehicleParameters{}, {.discretisation = method});
+    ClosedLoop loop(mpc, testing::StraightPath(200, 12.0));
+    loop.z()[kY] = 0.4;
+    loop.obstacles().reserve(100);
+    loop.obstacles().push_back({.X = 20.0, .Y = -0.5, .side = PassingSide::kLeft});
+    const auto step = [&](SolverStatus expected) {
+      const std::size_t before = Taken();
+      const Plan& plan = loop.Ask();
+      const std::size_t taken = Taken() - before;
+      EXPECT_EQ(taken, 0u);
+      EXPECT_EQ(plan.status, expected);
+      if (plan.status == SolverStatus::kSolved) loop.Drive(plan);
+    };
+    while (loop.k() < 60) step(SolverStatus::kSolved);
+    loop.obstacles().assign(100, {.X = loop.z()[kX] + 2.0, .side = PassingSide::kLeft});
+    step(SolverStatus::kInfeasible);
+    loop.obstacles().clear();
+    const double Y = loop.z()[kY];
+    loop.z()[kY] = std::numeric_limits<double>::quiet_NaN();
+    step(SolverStatus::kNumericalFailure);
+    loop.z()[kY] = Y;
+    mpc.Reset();
+    step(SolverStatus::kSolved);
+  }
+}
+
+}  // namespace
+}  // namespace control
