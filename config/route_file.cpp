@@ -1,5 +1,9 @@
 #include "config/route_file.hpp"
 
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "config/toml_table.hpp"
@@ -15,6 +19,8 @@ constexpr Range<double> kLength{0.01, 1e5};     // [m]
 constexpr Range<double> kCurvature{-0.5, 0.5};  // [1/m]
 constexpr Range<double> kRadius{2.0, 1e6};      // [m]
 constexpr Range<double> kWidth{0.1, 100.0};     // [m]
+constexpr double kLongestRoute = 1e6;           // [m]
+constexpr double kLongestDrive = 1e5;           // [s]
 
 double ArcCurvature(const TomlTable& table) {
   if (!table.Has("radius")) return table.Number("curvature", kCurvature, "1/m");
@@ -36,6 +42,23 @@ control::RoutePiece ReadPiece(const TomlTable& table) {
   return piece;
 }
 
+// The route that `make` gives from what stands under `key`. A route is kept in memory as points a cycle apart, hence
+// the limits.
+template <typename Make>
+control::Route Checked(const TomlTable& table, std::string_view key, double length, const Make& make) {
+  if (length > kLongestRoute) {
+    throw table.Error(key, fmt::format("is {} m long, must be at most {} m", length, kLongestRoute));
+  }
+  try {
+    control::Route route = make();
+    if (route.duration() <= kLongestDrive) return route;
+    throw table.Error(key, fmt::format("takes {:.0f} s at its speed, must be at most {} s", route.duration(),
+                                       kLongestDrive));
+  } catch (const std::invalid_argument& error) {
+    throw table.Error(key, fmt::format("gives no route: {}", error.what()));
+  }
+}
+
 control::Route ReadPieces(const TomlTable& table, double speed) {
   const TomlTable start_table = table.Table("start");
   const control::RouteStart start{.X = start_table.Number("X", kPosition, "m"),
@@ -44,7 +67,17 @@ control::Route ReadPieces(const TomlTable& table, double speed) {
   std::vector<control::RoutePiece> pieces;
   for (const TomlTable& piece : table.Tables("pieces")) pieces.push_back(ReadPiece(piece));
   if (pieces.empty()) throw table.Error("pieces", "must hold at least one piece, or waypoints be given");
-  return control::Route::FromPieces(start, speed, pieces);
+  double length = 0.0;
+  for (const control::RoutePiece& piece : pieces) length += piece.length;
+  return Checked(table, "pieces", length, [&] { return control::Route::FromPieces(start, speed, pieces); });
+}
+
+control::Route ReadWaypoints(const TomlTable& table, double speed) {
+  const std::vector<Eigen::Vector2d> waypoints = LoadWaypoints(table.Path("waypoints"));
+  double length = 0.0;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) length += (waypoints[i] - waypoints[i - 1]).norm();
+  return Checked(table, "waypoints", length,
+                 [&] { return control::Route::ThroughWaypoints(waypoints, speed); });
 }
 
 control::Route ReadRoute(const TomlTable& table) {
@@ -53,7 +86,7 @@ control::Route ReadRoute(const TomlTable& table) {
   for (const char* key : {"start", "pieces"}) {
     if (table.Has(key)) throw table.Error(key, "must not be given along with waypoints");
   }
-  return control::Route::ThroughWaypoints(LoadWaypoints(table.Path("waypoints")), speed);
+  return ReadWaypoints(table, speed);
 }
 
 }  // namespace

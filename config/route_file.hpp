@@ -1,17 +1,22 @@
 // A route file in TOML: the reference path with its target speed, and the width of the road about it.
 //
 //   [route]
-//   start = {X = 0.0, Y = 0.0, psi = 0.0}     # [m], [m], [rad]
-//   speed = 12.0                              # target speed at the start [m/s]
-//   pieces = [                                # lengths [m], curvatures [1/m] and turns positive to the left
+//   start = {X = 0.0, Y = 0.0, psi = 0.0}    # [m], [m], [rad]
+//   speed = 12.0                             # target speed at the start [m/s]
+//   pieces = [                               # lengths [m]; curvatures [1/m] and turns are positive to the left
 //     {kind = "straight", length = 100.0},
 //     {kind = "clothoid", length = 40.0, curvature_from = 0.0, curvature_to = 0.0125},
-//     {kind = "arc", length = 60.0, curvature = 0.0125},            # or radius = 80.0, turn = "left"
-//     {kind = "straight", length = 50.0, speed = 8.0},              # any piece: target speed at its end
+//     {kind = "arc", length = 60.0, curvature = 0.0125},
+//     {kind = "arc", length = 60.0, radius = 80.0, turn = "left"},    # the same
+//     {kind = "straight", length = 50.0, speed = 8.0},                # of any piece: target speed at its end
 //   ]
-//   # instead of start and pieces: waypoints = "points.csv"         # header X,Y; a natural cubic spline goes
-//   through [road] left = 4.0                                # from the path to the road's edges, both
-//   positive [m] right = 4.0
+//   # instead of start and pieces, a CSV file with the header X,Y; a natural cubic spline goes through its points:
+//   # waypoints = "points.csv"
+//   [road]                                   # from the path to the road's edges, both positive [m]
+//   left = 4.0
+//   right = 4.0
+//
+// A route is at most 1000 km long and takes at most 100,000 s at its target speed. Paths are relative to the file.
 #pragma once
 
 #include <filesystem>

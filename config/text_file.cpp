@@ -13,7 +13,7 @@ namespace config {
 
 std::string ReadTextFile(const std::filesystem::path& file) {
   const auto unreadable = [&](int error) {
-    return ConfigError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(error)));
+    return ConfigError(fmt::format("{}: cannot be read: {}", PlaceName(file), std::strerror(error)));
   };
   std::error_code unused;
   if (std::filesystem::is_directory(file, unused)) throw unreadable(EISDIR);
@@ -24,12 +24,15 @@ std::string ReadTextFile(const std::filesystem::path& file) {
   return text;
 }
 
-std::string Printable(std::string_view text) {
-  constexpr std::size_t kLongest = 80;
+std::string Printable(std::string_view text, std::size_t longest) {
   std::string out;
-  for (const char c : text.substr(0, kLongest)) out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-  if (text.size() > kLongest) out += "...";
+  for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  if (text.size() > longest) out += "...";
   return out;
+}
+
+std::string PlaceName(const std::filesystem::path& file) {
+  return Printable(file.string(), std::string_view::npos);
 }
 
 }  // namespace config

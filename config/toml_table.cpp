@@ -20,11 +20,14 @@ struct Document {
   toml::table root;
 };
 
+// Only a number can be without a bound: an integer has at least those of int.
 template <typename T>
 std::string FormatRange(const Range<T>& range, std::string_view unit) {
-  return fmt::format("{}, {}{}{}", range.min == Range<T>{}.min ? "(-inf" : fmt::format("[{}", range.min),
-                     range.max == Range<T>{}.max ? "inf)" : fmt::format("{}]", range.max),
-                     unit.empty() ? "" : " ", unit);
+  constexpr bool kHasInfinity = std::numeric_limits<T>::has_infinity;
+  const bool no_min = kHasInfinity && range.min == Range<T>{}.min;
+  const bool no_max = kHasInfinity && range.max == Range<T>{}.max;
+  return fmt::format("{}, {}{}{}", no_min ? "(-inf" : fmt::format("[{}", range.min),
+                     no_max ? "inf)" : fmt::format("{}]", range.max), unit.empty() ? "" : " ", unit);
 }
 
 std::string FormatValue(const toml::node& node) {
@@ -158,7 +161,7 @@ TomlTable TomlTable::Read(const std::filesystem::path& file) {
 
 TomlTable TomlTable::Parse(std::string_view text, const std::string& source_name) {
   auto document = std::make_shared<Document>();
-  document->name = source_name;
+  document->name = PlaceName(source_name);
   document->folder = std::filesystem::path(source_name).parent_path();
   try {
     document->root = toml::parse(text, source_name);

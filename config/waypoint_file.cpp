@@ -31,6 +31,12 @@ std::vector<std::string_view> Split(std::string_view line) {
   }
 }
 
+// Spreadsheets begin UTF-8 with one.
+std::string WithoutByteOrderMark(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
 double ToNumber(const std::string& place, std::string_view column, std::string_view field) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -48,13 +54,13 @@ double ToNumber(const std::string& place, std::string_view column, std::string_v
 }  // namespace
 
 std::vector<Eigen::Vector2d> LoadWaypoints(const std::filesystem::path& file) {
-  std::istringstream text(ReadTextFile(file));
+  std::istringstream text(WithoutByteOrderMark(ReadTextFile(file)));
   std::vector<Eigen::Vector2d> waypoints;
   bool header_seen = false;
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {
     if (Trim(line).empty()) continue;
-    const std::string place = fmt::format("{}:{}:", file.string(), number);
+    const std::string place = fmt::format("{}:{}:", PlaceName(file), number);
     const std::vector<std::string_view> fields = Split(line);
     if (!header_seen) {
       if (fields.size() != 2 || fields[0] != kColumns[0] || fields[1] != kColumns[1]) {
@@ -75,7 +81,7 @@ std::vector<Eigen::Vector2d> LoadWaypoints(const std::filesystem::path& file) {
   }
   if (waypoints.size() < 2) {
     throw ConfigError(
-        fmt::format("{}: has {} waypoints, must be at least 2", file.string(), waypoints.size()));
+        fmt::format("{}: has {} waypoints, must be at least 2", PlaceName(file), waypoints.size()));
   }
   return waypoints;
 }

@@ -1,5 +1,4 @@
-// Waypoints of a route from a CSV file: the header line `X,Y`, then a line of two numbers [m] for each
-// waypoint.
+// Waypoints of a route from a CSV file: the header line `X,Y`, then a line of two numbers [m] for each waypoint.
 #pragma once
 
 #include <Eigen/Core>

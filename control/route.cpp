@@ -125,7 +125,7 @@ std::vector<Vector2d> SplineCurvature(std::span<const Vector2d> p, std::span<con
 }
 
 void Require(bool holds, const std::string& text) {
-  if (!holds) throw std::invalid_argument("route: " + text);
+  if (!holds) throw std::invalid_argument(text);
 }
 
 constexpr double kSampleSpacing = 1.0;  // of the coarse search for the nearest point [m]

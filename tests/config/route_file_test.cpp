@@ -8,12 +8,15 @@
 #include "config/toml_table.hpp"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "tests/support/header_example.hpp"
 
 namespace config {
 namespace {
 
+using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 class RouteFileTest : public testing::Test {
  protected:
@@ -120,6 +123,36 @@ TEST_F(RouteFileTest, WrongWaypointNamesFileLineColumnAndValue) {
   EXPECT_EQ(CsvErrorOf("x;y\n0,1\n"), "points.csv:1: \"x;y\" must be the header \"X,Y\"");
   EXPECT_EQ(CsvErrorOf("X,Y\n0,1\n0,1\n"), "points.csv:3: waypoint 0,1 repeats its predecessor");
   EXPECT_EQ(CsvErrorOf("X,Y\n0,1\n"), "points.csv: has 1 waypoints, must be at least 2");
+}
+
+TEST_F(RouteFileTest, RouteThatCannotBeBuiltIsNamedWithFileLineAndPiece) {
+  EXPECT_EQ(ErrorOf(kHead + "pieces = [{kind = \"arc\", length = 1e5, curvature = 0.5}]\n"),
+            "route.toml:7: key 'route.pieces' gives no route: piece 0: turns too often");
+  EXPECT_THAT(
+      CsvErrorOf("X,Y\n0,0\n1e-300,0\n9,0\n"),
+      AllOf(StartsWith("route.toml:3: key 'route.waypoints' = \"points.csv\""), HasSubstr("waypoint 1")));
+}
+
+TEST_F(RouteFileTest, RouteTooLongForMemoryIsRefused) {
+  std::string csv = "X,Y\n";
+  for (int i = 0; i < 1000; ++i) csv += i % 2 == 0 ? "-1e6,-1e6\n" : "1e6,1e6\n";
+  EXPECT_THAT(CsvErrorOf(csv), HasSubstr("must be at most 1000000 m"));
+  std::string pieces;
+  for (int i = 0; i < 11; ++i) pieces += "{kind = \"straight\", length = 1e5},";
+  EXPECT_THAT(ErrorOf(kHead + "pieces = [" + pieces + "]\n"), HasSubstr("must be at most 1000000 m"));
+  EXPECT_THAT(ErrorOf(kHead + "pieces = [{kind = \"straight\", length = 9, speed = 0.1},\n{kind = "
+                              "\"straight\", length = 1e5}]\n"),
+              EndsWith("must be at most 100000 s"));
+}
+
+TEST_F(RouteFileTest, WaypointFileMayBeginWithAByteOrderMark) {
+  EXPECT_EQ(CsvErrorOf("\xEF\xBB\xBFX,Y\n0,0\n9,0\n"), "no error");
+}
+
+TEST_F(RouteFileTest, ExampleOfTheHeaderIsARouteFile) {
+  const RouteFile file = Load(test_support::ExampleOf("config/route_file.hpp"));
+  EXPECT_NEAR(file.route.length(), 310.0, 1e-9);
+  EXPECT_NEAR(file.route.At(170.0).curvature, file.route.At(230.0).curvature, 1e-12);
 }
 
 TEST_F(RouteFileTest, MissingWaypointFileIsNamed) {

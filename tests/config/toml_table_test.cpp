@@ -75,7 +75,7 @@ TEST(TomlTable, ValueOutsideTheRangeNamesFileLineKeyValueAndRange) {
   EXPECT_EQ(ErrorOf([&] { (void)file.Table("road").Number("right", {.max = 1.0}, "m"); }),
             "folder/a.toml:4: key 'road.right' = 1500 is outside (-inf, 1] m");
   EXPECT_EQ(ErrorOf([&] { (void)file.Table("road").Integer("left", {.min = 0}); }),
-            "folder/a.toml:3: key 'road.left' = -3 is outside [0, inf)");
+            "folder/a.toml:3: key 'road.left' = -3 is outside [0, 2147483647]");
 }
 
 TEST(TomlTable, WrongTypeNamesValueAndType) {
@@ -176,6 +176,8 @@ TEST(TomlTable, ErrorOfTheCallerNamesKeyAndValue) {
 
 TEST(TomlTable, ErrorStaysOnOneLine) {
   EXPECT_THAT(ErrorOf([] { (void)Parse("x = \"a\\nb\"").Number("x"); }), HasSubstr("\"a?b\""));
+  EXPECT_EQ(ErrorOf([] { (void)TomlTable::Read("/no\nwhere.toml"); }),
+            "/no?where.toml: cannot be read: No such file or directory");
 }
 
 TEST(EditDistance, CountsInsertedRemovedAndReplacedCharacters) {
