@@ -86,8 +86,8 @@ void LpvMpc::BuildQp(const ControllerInput& input) {
   }
 }
 
-// The order is the same in every stage that has the row, so that multipliers can be handed on from one to the
-// next: inputs, states, road, trust region of the states, obstacles.
+// The order is the same in every stage before N, so that multipliers can be handed on from one to the next: inputs,
+// states, road, trust region of the states, obstacles. (Stage 0 has the first of them alone.)
 void LpvMpc::BuildRows(const ControllerInput& input, int i) {
   auto& stage = qp_.stages[Index(i)];
   const State& z_ref = input.reference[Index(i)];
@@ -147,7 +147,7 @@ void LpvMpc::ReadPlan(const ControllerInput& input) {
 void LpvMpc::MeasureTrustRegion() {
   plan_.active_trust_rows = 0;
   plan_.largest_slack = 0.0;
-  if (!has_prediction_ || plan_.status != SolverStatus::kSolved) return;
+  if (!settings_.trust_region || !has_prediction_ || plan_.status != SolverStatus::kSolved) return;
   const auto measure = [&](double value, double predicted, std::size_t j) {
     const double deviation =
         std::abs(value - predicted) / settings_.trust_radius[static_cast<Eigen::Index>(j)];
@@ -171,9 +171,9 @@ void LpvMpc::PredictNext() {
     std::ranges::copy(plan_.u, predicted_u_.begin());
     has_prediction_ = true;
     const auto& solved = solver_.solution().stages;
+    // The last two stages keep their own: the rows of stage N are not those of stage N − 1.
     for (std::size_t i = 0; i < solved.size(); ++i)
-      guess_.stages[i] = solved[std::min(i + 1, solved.size() - 1)];
-    guess_.stages[solved.size() - 2].u = solved[solved.size() - 2].u;
+      guess_.stages[i] = solved[i + 2 < solved.size() ? i + 1 : i];
   }
   std::shift_left(predicted_z_.begin(), predicted_z_.end(), 1);
   std::shift_left(predicted_u_.begin(), predicted_u_.end(), 1);

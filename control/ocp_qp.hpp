@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -96,7 +97,9 @@ struct KktResidual {
   double multipliers = 0.0;      // λ ≥ 0
   double complementarity = 0.0;  // λ times its row's distance to the bound
 
-  [[nodiscard]] double Max() const;
+  [[nodiscard]] double Max() const {
+    return std::max({stationarity, dynamics, rows, multipliers, complementarity});
+  }
 };
 
 template <int kNx, int kNu>

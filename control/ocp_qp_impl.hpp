@@ -40,10 +40,6 @@ bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
   return true;
 }
 
-inline double KktResidual::Max() const {
-  return std::max({stationarity, dynamics, rows, multipliers, complementarity});
-}
-
 template <int kNx, int kNu>
 KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
   KktResidual residual;

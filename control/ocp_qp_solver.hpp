@@ -43,7 +43,8 @@ class OcpQpSolver {
   // `qp` must have the solver's horizon. Where nothing is violated by the optimum without any row, that is
   // the answer, after 0 iterations. A guess gives the inputs and multipliers to start from. Does not
   // allocate.
-  //   kSolved            solution() satisfies the conditions of optimality to the tolerance
+  //   kSolved            solution() satisfies the conditions of optimality to the tolerance (in deviations from
+  //                      the optimum without rows, whose own round-off comes on top)
   //   kInfeasible        solution()'s multipliers prove it (ProvesInfeasible)
   //   kIterationLimit    neither within max_iterations; solution() is the last iterate. So ends also a
   //                      contradiction by little between rows whose inputs have no hard bounds
