@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
@@ -11,16 +10,26 @@
 
 namespace config {
 
-std::string ReadTextFile(const std::filesystem::path& file) {
-  const auto unreadable = [&](int error) {
-    return ConfigError(fmt::format("{}: cannot be read: {}", PlaceName(file), std::strerror(error)));
-  };
+namespace {
+
+ConfigError Unreadable(const std::filesystem::path& file, int error) {
+  return ConfigError(fmt::format("{}: cannot be read: {}", PlaceName(file), std::strerror(error)));
+}
+
+}  // namespace
+
+std::ifstream OpenTextFile(const std::filesystem::path& file) {
   std::error_code unused;
-  if (std::filesystem::is_directory(file, unused)) throw unreadable(EISDIR);
+  if (std::filesystem::is_directory(file, unused)) throw Unreadable(file, EISDIR);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw unreadable(errno);
+  if (!stream) throw Unreadable(file, errno);
+  return stream;
+}
+
+std::string ReadTextFile(const std::filesystem::path& file) {
+  std::ifstream stream = OpenTextFile(file);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw unreadable(EIO);
+  if (stream.bad()) throw Unreadable(file, EIO);
   return text;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
 namespace config {
 
-// Throws ConfigError "FILE: cannot be read: REASON".
+// Both throw ConfigError "FILE: cannot be read: REASON".
+[[nodiscard]] std::ifstream OpenTextFile(const std::filesystem::path& file);
 [[nodiscard]] std::string ReadTextFile(const std::filesystem::path& file);
 
 // `text` without control characters, cut after `longest` bytes: an error stays on one line whatever stands in the file.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "can/socket.hpp"
@@ -45,7 +46,8 @@ int Drive(const sim::Options& options) {
   const sim::Summary summary = run.Run();
   // JSON on stdout is for a machine; who watches still gets the summary.
   std::fputs(sim::ToText(summary).c_str(), options.json ? stderr : stdout);
-  if (options.json) std::printf("%s\n", sim::ToJson(summary).c_str());
+  if (options.json) std::fputs(sim::ToJson(summary).c_str(), stdout);
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");
   return summary.passed() ? kPassed : kFailed;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/ellipse_distance.hpp"
+#include "sim/percentile.hpp"
 
 namespace sim {
 namespace {
@@ -17,13 +18,6 @@ constexpr int kMissesModulus = 1024;       // of ControllerStatus
 
 void KeepSmaller(std::optional<double>& smallest, double value) {
   smallest = std::min(smallest.value_or(value), value);
-}
-
-// Nearest-rank percentile of a sorted list.
-int Percentile(const std::vector<int>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }
 
 class Judge {

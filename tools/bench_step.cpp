@@ -11,9 +11,11 @@
 #include "control/lpv_mpc.hpp"
 #include "control/reference.hpp"
 #include "daemon/config.hpp"
+#include "sim/percentile.hpp"
 #include "sim/plant.hpp"
 #include "sim/scenario.hpp"
 #include "sim/virtual_vehicle.hpp"
+#include "tools/scenario_config.hpp"
 
 namespace tools {
 namespace {
@@ -57,27 +59,27 @@ void Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config, const c
 
 void BenchStep(const BenchStepOptions& options, std::ostream& out) {
   const sim::Scenario scenario = sim::LoadScenario(options.scenario);
-  const std::filesystem::path config_file = options.config.empty() ? scenario.daemon_config : options.config;
-  if (config_file.empty()) {
-    throw std::runtime_error(options.scenario.string() + ": names no daemon_config; give one by --config");
-  }
-  lpvmpcd::Config config = lpvmpcd::LoadConfig(config_file);
+  lpvmpcd::Config config = LoadConfigFor(scenario, options.scenario, options.config);
   const config::RouteFile route = config::LoadRoute(config.route);
   const control::Reference reference(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s);
+  for (const int horizon : options.horizons) {
+    if (horizon < 2 || horizon >= reference.size()) {
+      throw std::invalid_argument(
+          fmt::format("--horizon: {} is outside [2, {}]", horizon, reference.size() - 1));
+    }
+  }
 
   nlohmann::json rows = nlohmann::json::array();
   if (!options.json) out << "   N   steps  median_us    p99_us    max_us  iterations  unsolved\n";
   for (const int horizon : options.horizons) {
-    if (horizon < 2 || horizon >= reference.size()) {
-      throw std::runtime_error(fmt::format("horizon {} is outside [2, {}]", horizon, reference.size() - 1));
-    }
     config.mpc.horizon = horizon;
     Samples samples;
     for (int i = 0; i < options.repeat; ++i) Drive(scenario, config, reference, route.road, samples);
     std::ranges::sort(samples.microseconds);
     const std::size_t count = samples.microseconds.size();
-    const double median = samples.microseconds[count / 2], p99 = samples.microseconds[count * 99 / 100],
-                 max = samples.microseconds.back();
+    const double median = sim::Percentile(samples.microseconds, 0.5);
+    const double p99 = sim::Percentile(samples.microseconds, 0.99);
+    const double max = samples.microseconds.back();
     const double iterations = static_cast<double>(samples.iterations) / static_cast<double>(count);
     if (options.json) {
       rows.push_back({{"horizon", horizon},

@@ -1,5 +1,4 @@
-// `lpvmpc bench step`: time of the whole control step (reference window, LPV matrices, QP, plan) along a
-// drive.
+// `lpvmpc bench step`: time of the whole control step (reference window, LPV matrices, QP, plan) along a drive.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +15,8 @@ struct BenchStepOptions {
   bool json = false;
 };
 
-// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon. Throws
-// std::runtime_error, one line, at bad input.
+// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon. Throws one line at bad
+// input, before anything is written.
 void BenchStep(const BenchStepOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -1,13 +1,23 @@
 #include "tools/closed_loop.hpp"
 
+#include <chrono>
+#include <fmt/format.h>
+#include <stdexcept>
+
 #include "daemon/assembly.hpp"
 #include "daemon/service.hpp"
+#include "daemon/time.hpp"
 #include "sim/virtual_vehicle.hpp"
 
 namespace tools {
 
 sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
                              const ClosedLoopHooks& hooks) {
+  if (config.loop.period != lpvmpcd::FromSeconds(sim::kCycleTime)) {
+    throw std::invalid_argument(
+        fmt::format("the configuration's cycle.period = {} must be {} s, the simulated vehicle's",
+                    std::chrono::duration<double>(config.loop.period).count(), sim::kCycleTime));
+  }
   lpvmpcd::Assembly controller(config, lpvmpcd::MonotonicNow);
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);

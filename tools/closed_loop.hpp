@@ -13,13 +13,14 @@
 namespace tools {
 
 struct ClosedLoopHooks {
-  std::function<void(const can::Frame&)> frame =
-      nullptr;  // every frame of both sides, stamped with synthetic time
-  std::function<void(const sim::Recorder&)> cycle = nullptr;  // after every cycle
+  // Called with every frame of both sides, stamped with synthetic time.
+  std::function<void(const can::Frame&)> frame = nullptr;
+  // Called after every cycle.
+  std::function<void(const sim::Recorder&)> cycle = nullptr;
 };
 
-// Drives the scenario to its end. Throws std::runtime_error, one line, if a file of the configuration is
-// missing or wrong.
+// Drives the scenario to its end. Throws one line, before anything is driven: std::runtime_error if a file of the
+// configuration is missing or wrong, std::invalid_argument if its period is not the vehicle's.
 [[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
                                            const ClosedLoopHooks& hooks = {});
 

@@ -1,41 +1,61 @@
 // lpvmpc: offline commands about the controller, a file each.
-#include <fstream>
+#include <cstdio>
+#include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
-#include "config/toml_table.hpp"
+#include "config/text_file.hpp"
 #include "tools/bench_step.hpp"
 #include "tools/decode.hpp"
 #include "tools/run.hpp"
 
 namespace {
 
-constexpr int kRunTimeError = 1;
-constexpr int kUsageError = 2;
+constexpr int kBadInput = 2;
 
-int Fail(const std::exception& error, int status) {
+int Fail(const std::exception& error) {
   std::cerr << "lpvmpc: " << error.what() << '\n';
+  return kBadInput;
+}
+
+// The status of a command whose output has reached stdout.
+int Finish(int status) {
+  if (!std::cout.flush()) throw std::runtime_error("standard output: cannot be written");
   return status;
 }
 
 int Decode(const std::string& log) {
-  if (log == "-") return tools::RunDecode(std::cin, "standard input", std::cout, std::cerr);
-  std::ifstream file(log);
-  if (!file) throw std::runtime_error("cannot read " + log);
-  return tools::RunDecode(file, log, std::cout, std::cerr);
+  if (log != "-") {
+    std::ifstream file = config::OpenTextFile(log);
+    return tools::RunDecode(file, log, std::cout, std::cerr);
+  }
+  const int status = tools::RunDecode(std::cin, "standard input", std::cout, std::cerr);
+  if (std::ferror(stdin) != 0)
+    throw std::runtime_error("standard input: cannot be read");  // cin does not tell it
+  return status;
+}
+
+// Not CLI11's own check, which would hide an unknown option.
+void RequireOption(const CLI::App& command, const char* option) {
+  if (command.parsed() && command.count(option) == 0) throw CLI::RequiredError(option);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("lpvmpc: offline commands about the controller");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Exit status: 0 done; 1 expectations not met, or lines of a log not understood; 2 bad usage, input or "
+      "output.");
   app.set_version_flag("--version", "lpvmpc " LPVMPC_VERSION);
 
   tools::RunOptions run;
   CLI::App* run_command = app.add_subcommand("run", "drive a scenario in memory, without a bus");
-  run_command->add_option("--scenario", run.scenario, "scenario in TOML")->required();
+  run_command->add_option("--scenario", run.scenario, "scenario in TOML; required");
   run_command->add_option("--config", run.config, "daemon's configuration, instead of the scenario's");
   run_command->add_option("--controller", run.controller,
                           "lpv or lpv-standard, instead of the configuration's");
@@ -49,7 +69,7 @@ int main(int argc, char** argv) {
   tools::BenchStepOptions bench;
   bench.scenario = LPVMPC_DATA_DIR "/scenarios/demo/scenario.toml";
   CLI::App* bench_command =
-      app.add_subcommand("bench", "time parts of the controller")->require_subcommand(1);
+      app.add_subcommand("bench", "time parts of the controller")->require_subcommand(0, 1);
   CLI::App* step_command = bench_command->add_subcommand("step", "the whole control step along a drive");
   step_command->add_option("--scenario", bench.scenario, "scenario in TOML")->capture_default_str();
   step_command->add_option("--config", bench.config, "daemon's configuration, instead of the scenario's");
@@ -60,18 +80,20 @@ int main(int argc, char** argv) {
   step_command->add_flag("--json", bench.json, "figures as JSON");
 
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : Fail(error, kUsageError);
-  }
-  try {
-    if (run_command->parsed()) return tools::Run(run, std::cout);
+    try {
+      app.parse(argc, argv);
+      if (app.get_subcommands().empty()) throw CLI::RequiredError("a command: run, decode or bench");
+      if (bench_command->parsed() && !step_command->parsed())
+        throw CLI::RequiredError("a command: bench step");
+      RequireOption(*run_command, "--scenario");
+    } catch (const CLI::ParseError& error) {
+      return error.get_exit_code() == 0 ? Finish(app.exit(error)) : Fail(error);
+    }
+    if (run_command->parsed()) return Finish(tools::Run(run, std::cout));
     if (decode_command->parsed()) return Decode(log);
     tools::BenchStep(bench, std::cout);
-    return 0;
-  } catch (const config::ConfigError& error) {
-    return Fail(error, kUsageError);
+    return Finish(0);
   } catch (const std::exception& error) {
-    return Fail(error, kRunTimeError);
+    return Fail(error);
   }
 }

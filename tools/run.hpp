@@ -15,8 +15,8 @@ struct RunOptions {
   bool json = false;
 };
 
-// Writes the summary to `out`. Returns 0 if the scenario's expectations are met, 1 if not. Throws
-// std::runtime_error, one line, at bad input.
+// Writes the summary to `out`. Returns 0 if the scenario's expectations are met, 1 if not. Throws one
+// line at bad input, before the log is opened, and if the log cannot be written.
 [[nodiscard]] int Run(const RunOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -156,6 +156,7 @@ TEST_F(LpvmpcSim, BadInputIsOneLineAndExitTwo) {
       {{kSim}, "--interface"},
       {{kSim, "--interface", "vcan0", "--scenario", good, "--bogus"}, "--bogus"},
       {{kSim, "--interface", "vcan0", "--scenario", good, "--timeout", "soon"}, "--timeout"},
+      {{kSim, "--interface", "vcan0", "--scenario", good, "--timeout", "nan"}, "--timeout: nan is outside"},
       {{kSim, "--interface", "vcan0", "--scenario", "/nowhere.toml"}, "/nowhere.toml: cannot be read"},
       {{kSim, "--interface", "vcan0", "--scenario", outside},
        "outside.toml:5: key 'obstacle[0].X' = 1700 is outside"},

@@ -4,6 +4,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "sim/percentile.hpp"
 #include "tests/sim/fake_controller.hpp"
 #include "tests/sim/scenario_files.hpp"
 
@@ -110,6 +111,20 @@ TEST_F(SummaryTest, CountsStepsThatWereNotSolvedAndDeadlineMissesAcrossTheWrap) 
   EXPECT_EQ(summary.deadline_misses, 5);
   EXPECT_THAT(summary.failed_expectations,
               ElementsAre("infeasible_steps = 3 is above 2", "deadline_misses = 5 is above 4"));
+}
+
+TEST(Percentile, IsTheValueOfTheNearestRank) {
+  std::vector<int> values;
+  for (int i = 1; i <= 100; ++i) values.push_back(i);
+  EXPECT_EQ(Percentile(values, 0.5), 50);
+  EXPECT_EQ(Percentile(values, 0.07), 7);
+  EXPECT_EQ(Percentile(values, 0.99), 99);
+  EXPECT_EQ(Percentile(values, 1.0), 100);
+  values.push_back(101);
+  EXPECT_EQ(Percentile(values, 0.5), 51);
+  EXPECT_EQ(Percentile(values, 0.99), 100);
+  EXPECT_EQ(Percentile(std::vector<double>{3.5}, 0.0), 3.5);
+  EXPECT_EQ(Percentile(std::vector<double>{}, 0.5), 0.0);
 }
 
 TEST(SummaryJson, HasTheAgreedKeys) {

@@ -1,4 +1,5 @@
 // The three programs at their command lines: what goes wrong is one clear line on stderr and a status that is not 0.
+#include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,8 +36,16 @@ TEST(Lpvmpc, UnknownOptionIsNamed) {
   ExpectOneLine({LPVMPC, "run", "--scenari", "x"}, AllOf(StartsWith("lpvmpc: "), HasSubstr("--scenari")));
 }
 
-TEST(Lpvmpc, CommandIsRequired) {
-  ExpectOneLine({LPVMPC}, StartsWith("lpvmpc: "));
+TEST(Lpvmpc, UnknownOptionIsNotHiddenByWhatElseIsMissing) {
+  ExpectOneLine({LPVMPC, "--bogus"}, HasSubstr("--bogus"));
+  ExpectOneLine({LPVMPC, "run", "--bogus"}, HasSubstr("--bogus"));
+  ExpectOneLine({LPVMPC, "bench", "--bogus"}, HasSubstr("--bogus"));
+}
+
+TEST(Lpvmpc, WhatIsRequiredIsNamed) {
+  ExpectOneLine({LPVMPC}, HasSubstr("run, decode or bench"));
+  ExpectOneLine({LPVMPC, "bench"}, HasSubstr("bench step"));
+  ExpectOneLine({LPVMPC, "run"}, HasSubstr("--scenario"));
 }
 
 TEST(Lpvmpc, MissingScenarioIsNamed) {
@@ -67,9 +76,39 @@ TEST(Lpvmpc, LogThatCannotBeWrittenIsNamed) {
                 HasSubstr("/nowhere/out.log"));
 }
 
-TEST(Lpvmpc, HorizonLongerThanTheRouteIsNamed) {
-  ExpectOneLine({LPVMPC, "bench", "step", "--horizon", "1", "--repeat", "1", "--json"},
-                HasSubstr("horizon 1"));
+TEST(Lpvmpc, LogIsNotTouchedByARunThatCannotBegin) {
+  const test_support::TempDir folder;
+  const std::string log = Write(folder, "old.log", "precious\n");
+  const std::string config = Write(folder, "c.toml", "[route]\nfile = \"none.toml\"\n");
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--config", config, "--log", log},
+                HasSubstr("none.toml"));
+  EXPECT_EQ(std::filesystem::file_size(log), 9u);
+}
+
+TEST(Lpvmpc, OutputThatCannotBeWrittenIsToldAndIsNoSuccess) {
+  for (const std::string& command :
+       {std::string(" run --scenario ") + kDemo + "/scenario.toml", std::string(" --help"),
+        std::string(" bench step --horizon 8 --repeat 1")}) {
+    ExpectOneLine({"sh", "-c", LPVMPC + command + " >/dev/full"}, HasSubstr("standard output"));
+  }
+}
+
+TEST(Lpvmpc, InputThatCannotBeReadIsToldAndIsNoSuccess) {
+  ExpectOneLine({"sh", "-c", LPVMPC " decode </tmp"}, HasSubstr("standard input"));
+  ExpectOneLine({LPVMPC, "decode", "/tmp"}, HasSubstr("/tmp: cannot be read: Is a directory"));
+}
+
+TEST(Lpvmpc, PeriodThatIsNotTheVehiclesIsNamed) {
+  const test_support::TempDir folder;
+  const std::string config =
+      Write(folder, "c.toml", "[route]\nfile = \"" + kDemo + "/route.toml\"\n[cycle]\nperiod = 0.02\n");
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--config", config},
+                AllOf(HasSubstr("cycle.period = 0.02"), HasSubstr("0.05")));
+}
+
+TEST(Lpvmpc, HorizonOutsideTheRouteIsNamedBeforeAnythingIsPrinted) {
+  ExpectOneLine({LPVMPC, "bench", "step", "--horizon", "8", "1", "--repeat", "1"}, HasSubstr("--horizon: 1"));
+  ExpectOneLine({LPVMPC, "bench", "step", "--horizon", "99999"}, HasSubstr("--horizon: 99999"));
 }
 
 TEST(Lpvmpc, RunPrintsItsSummaryAsJson) {
