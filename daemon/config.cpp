@@ -1,7 +1,7 @@
 #include "daemon/config.hpp"
 
 #include <algorithm>
-#include <numbers>
+#include <fmt/format.h>
 #include <stdexcept>
 #include <vector>
 
@@ -26,7 +26,7 @@ void ReadVector(const TomlTable& table, const char* key, Vector& vector, config:
 
 void ReadCycle(const TomlTable& table, Config& config) {
   const double period = table.NumberOr("period", 0.05, {0.005, 1.0}, "s");
-  const double timeout = table.NumberOr("timeout", 1.5 * period, {0.005, 10.0}, "s");
+  const double timeout = table.NumberOr("timeout", 1.5 * period, {0.005, 1.5}, "s");
   if (timeout < period) {
     throw table.Error("timeout", "must not be shorter than the period");
   }
@@ -88,6 +88,11 @@ void ReadModes(const TomlTable& engage, const TomlTable& stop, LoopSettings& loo
   loop.engage_max_heading_error =
       engage.NumberOr("max_heading_error", loop.engage_max_heading_error, {0.0, 3.15}, "rad");
   loop.stop_deceleration = stop.NumberOr("deceleration", loop.stop_deceleration, {0.1, 10.0}, "m/s^2");
+  if (loop.stop_deceleration > -loop.limits.min_acceleration) {
+    throw stop.Error("deceleration",
+                     fmt::format("must not be above {}, which limits.min_acceleration allows, but is {}",
+                                 -loop.limits.min_acceleration, loop.stop_deceleration));
+  }
   loop.standstill_speed = stop.NumberOr("standstill_speed", loop.standstill_speed, {0.01, 5.0}, "m/s");
 }
 
@@ -104,8 +109,8 @@ Config LoadConfig(const std::filesystem::path& file) {
   config.route = root.Table("route").Path("file");
   ReadCycle(root.Table("cycle"), config);
   ReadMonitor(root.Table("monitor"), config.loop.monitor);
-  ReadModes(root.Table("engage"), root.Table("safe_stop"), config.loop);
   ReadLimits(root.Table("limits"), config);
+  ReadModes(root.Table("engage"), root.Table("safe_stop"), config.loop);
   ReadController(root.Table("controller"), config.mpc);
   ReadVehicle(root.Table("vehicle"), config.vehicle);
   config.loop.send_horizon = root.Table("status").BooleanOr("horizon", config.loop.send_horizon);

@@ -1,18 +1,16 @@
 // The daemon's configuration: one TOML file. A key that is not listed here is refused.
 //
 //   [bus]         interface = "can0"            CAN interface
-//                 dbc = "FILE"                  another definition of our messages; none: the built-in
-//                 dbc/vehicle.dbc
+//                 dbc = "FILE"                  another definition of our messages; none: the built-in dbc/vehicle.dbc
 //   [route]       file = "FILE"                 route file (config/route_file.hpp); required
 //   [cycle]       period = 0.05                 t_s of bus, reference and controller [s], 0.005..1
-//                 timeout = 0.075               after a state, until a cycle runs without one [s]; period..10
-//                 lockstep = false              time by the vehicle's counter: repeatable, for simulation
-//                 only
+//                 timeout = 1.5 period          after a state, until a cycle runs without one [s]; period..1.5
+//                 lockstep = false              time by the vehicle's counter: repeatable, for simulation only
 //   [monitor]     stale_periods = 3.0           age, in its periods, above which a message is stale; 1..1000
 //                 max_lost = 2                  frames that may be missing between two accepted ones; 0..13
 //   [engage]      min_speed = 3.0               [m/s], 0..50
 //                 max_heading_error = 0.5       against the route [rad], 0..3.15
-//   [safe_stop]   deceleration = 3.0            [m/s²], 0.1..10
+//   [safe_stop]   deceleration = 3.0            [m/s²], 0.1..10, not above −min_acceleration
 //                 standstill_speed = 0.3        below it the vehicle stands [m/s], 0.01..5
 //   [limits]      max_steering = 0.593412       |δ| [rad], 0.01..1.04
 //                 max_steering_step = 0.436332  |δ_k − δ_{k−1}| [rad], 0.001..2
@@ -20,8 +18,7 @@
 //                 max_acceleration = 2.0        [m/s²], 0..13
 //                 max_acceleration_step = 1.5   |a_k − a_{k−1}| [m/s²], 0.01..20
 //                 (of the problem that is solved and of the limiter after it)
-//   [controller]  kind = "lpv"                  "lpv": with the scheduling trust region, "lpv-standard":
-//   without
+//   [controller]  kind = "lpv"                  "lpv": with the scheduling trust region, "lpv-standard": without
 //                 horizon = 8                   N, 2..100
 //                 discretisation = "euler"      "euler" as in the paper, or "zero-order-hold"
 //                 Q = [10, 10, 1, 1, 10, 1]     weights of the error in X Y υ ν ψ ω, each >= 0

@@ -94,6 +94,13 @@ TEST_F(ConfigTest, WrongValueNamesFileLineKeyValueAndWhatIsAllowed) {
 TEST_F(ConfigTest, ValuesThatContradictEachOtherAreRefused) {
   EXPECT_THAT(Error(kRoute + "[cycle]\ntimeout = 0.01\n"), HasSubstr("timeout"));
   EXPECT_THAT(Error(kRoute + "[controller]\nz_max = [0, 0, 0, 0, 0, 0]\n"), HasSubstr("z_max"));
+  // A stop that the limiter would not let happen; both keys decide, either may be the one that is written.
+  EXPECT_THAT(Error(kRoute + "[safe_stop]\ndeceleration = 7\n"), HasSubstr("deceleration"));
+  EXPECT_THAT(Error(kRoute + "[limits]\nmin_acceleration = -2\n"),
+              testing::AllOf(HasSubstr("safe_stop.deceleration"), HasSubstr("limits.min_acceleration")));
+  EXPECT_EQ(Load(kRoute + "[limits]\nmin_acceleration = -2\n[safe_stop]\ndeceleration = 2\n")
+                .loop.stop_deceleration,
+            2.0);
 }
 
 TEST_F(ConfigTest, AssemblyNamesTheFileThatIsMissingOrWrong) {
