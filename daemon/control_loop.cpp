@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/report_frames.hpp"
 #include "daemon/route_place.hpp"
-#include "dbc/e2e.hpp"
 
 namespace lpvmpcd {
 namespace {
 
 constexpr std::uint8_t kNoState = 15;
 constexpr int kNoPlanAge = 63;
-constexpr std::size_t kReports = 3;  // status, health, header of the horizon
 constexpr std::size_t kCommands = 2;
-constexpr std::size_t kMaxPoints = 127;  // of a horizon on the bus
+constexpr std::size_t kReports = 3;    // status, health, header of the horizon
+constexpr int kPeriodsOfSilence = 40;  // without a command, after which others have the vehicle
 
 // A plan is taken only if it was solved and every value of it is a number.
 bool Acceptable(const control::Plan& plan, int horizon) {
@@ -21,6 +21,20 @@ bool Acceptable(const control::Plan& plan, int horizon) {
   return plan.status == control::SolverStatus::kSolved && plan.u.size() == n && plan.z.size() == n + 1 &&
          std::ranges::all_of(plan.u, [](const control::Input& u) { return u.allFinite(); }) &&
          std::ranges::all_of(plan.z, [](const control::State& z) { return z.allFinite(); });
+}
+
+// Why a plan was not accepted.
+dbc::FaultCode SolverFault(control::SolverStatus status) {
+  switch (status) {
+    case control::SolverStatus::kInfeasible:
+      return dbc::FaultCode::kSolverInfeasible;
+    case control::SolverStatus::kIterationLimit:
+      return dbc::FaultCode::kSolverIterationLimit;
+    case control::SolverStatus::kSolved:  // and yet not all of it is a number
+    case control::SolverStatus::kNumericalFailure:
+      break;
+  }
+  return dbc::FaultCode::kSolverNumericalFailure;
 }
 
 dbc::SolverStatus ToBus(control::SolverStatus status) {
@@ -48,14 +62,15 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bu
       road_(road),
       stopwatch_(std::move(stopwatch)),
       monitor_(bus, settings.monitor, settings.period),
+      states_(settings.period),
       limiter_(settings.limits),
-      gate_(bus) {
+      gate_(bus),
+      plan_(controller.horizon()) {
   const int horizon = controller.horizon();
   settings_.limits.max_age = std::min(settings.limits.max_age, horizon - 1);
   limiter_ = control::CommandLimiter(settings_.limits);
   const auto points = static_cast<std::size_t>(horizon) + 1;
   window_.resize(points);
-  plan_.reserve(points);
   frames_.reserve(kCommands + kReports + points);
 }
 
@@ -102,28 +117,28 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   const Time start = stopwatch_();
   report_.previous_mode = mode_.mode;
   report_.solver = dbc::SolverStatus::kNone;
+  report_.iterations = 0;
   report_.plan_accepted = false;
-  new_plan_ = nullptr;
-  last_solve_ = nullptr;
+  solve_ = nullptr;
 
   // 1. Time: which step it is, by the counter of the state or, without a state, by the timer.
-  CountStep(trigger);
-  if (!Commands(mode_.mode) && states_.state().complete) {
-    applied_ = states_.state().feedback;
+  if (trigger == Trigger::kState) {
+    steps_.CountState(states_.state().counter);
+  } else {
+    steps_.CountTimer();
   }
 
   // 2. What is known: health of the inputs, the driver's wish, the place on the route.
   ModeInputs inputs = Judge(now, trigger);
-
   const bool asked = mode_.mode == Mode::kStandby && inputs.state_new && RisingEdge(mode_, inputs);
 
   // 3. The plan: a new one from a new state; without one, or if it is refused, the last plan goes on.
   const bool engaging = EngagementRequested(mode_, inputs);
-  if (engaging ||
-      (mode_.mode == Mode::kActive && inputs.state_new && inputs.state_fresh && !inputs.route_end)) {
+  const bool driving = mode_.mode == Mode::kActive && inputs.state_new && inputs.state_fresh;
+  if (engaging || (driving && !inputs.route_end)) {
     Solve(engaging);
   }
-  inputs.plan_usable = PlanCoversNow();
+  inputs.plan_usable = plan_.Covers(steps_.step());
 
   // 4. The mode.
   mode_ = Next(mode_, inputs);
@@ -139,7 +154,7 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   if (Commands(mode_.mode)) {
     applied_ = limited.command->u();
   } else {
-    plan_.clear();  // whoever engages next begins with a plan of his own
+    plan_.Drop();  // whoever engages next begins with a plan of his own
   }
 
   // 8. What to tell about it, after the commands, so that these are on the bus soonest.
@@ -151,7 +166,7 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   report_.cause = mode_.cause;
   report_.fault = Fault(inputs);
   report_.engagement_refused = asked && mode_.mode == Mode::kStandby;
-  report_.plan_age = plan_.empty() ? -1 : PlanAge();
+  report_.plan_age = plan_.exists() ? plan_.Age(steps_.step()) : -1;
   report_.limited = limited.status == control::LimitStatus::kLimited;
   report_.command = limited.command->u();
   report_.step_time = elapsed;
@@ -166,42 +181,28 @@ std::span<const can::Frame> ControlLoop::Disable() {
   if (Commands(mode_.mode)) {
     mode_ = {.mode = Mode::kStandby, .cause = Cause::kReleased};
   }
-  plan_.clear();
-  frames_.clear();
+  plan_.Drop();
   static_cast<void>(Emit(*Measured().command, Trigger::kTimer));
   return frames_;
 }
 
 std::span<const can::Frame> ControlLoop::Announce() {
   frames_.clear();
-  EmitStatus();
+  AppendStatus(report_, gate_, frames_);
   return frames_;
-}
-
-void ControlLoop::CountStep(Trigger trigger) {
-  if (trigger == Trigger::kTimer) {
-    ++step_;
-    return;
-  }
-  const int counter = states_.state().counter;
-  std::int64_t step = step_ + 1;
-  if (state_counter_ >= 0) {
-    constexpr int kModulus = dbc::kCounterModulus;
-    step = state_step_ + (counter + kModulus - state_counter_) % kModulus;
-    // The counter tells the step modulo 15; of the possible ones, that which the timer counted roughly.
-    while (step < step_ - kModulus / 2) {
-      step += kModulus;
-    }
-  }
-  step_ = step;
-  state_step_ = step;
-  state_counter_ = counter;
 }
 
 ModeInputs ControlLoop::Judge(Time now, Trigger trigger) {
   const VehicleState& state = states_.state();
+  if (!Commands(mode_.mode) && state.complete) {
+    applied_ = state.feedback;
+  }
   ModeInputs inputs;
   inputs.bus_up = bus_up_;
+  inputs.silent = now - last_sent_ > kPeriodsOfSilence * settings_.period;
+  if (bus_up_) {
+    last_sent_ = now;
+  }
   inputs.state_new = trigger == Trigger::kState;
   inputs.state_fresh = state.complete && now - state.timestamp <= monitor_.StaleAfter(RxMessage::kPose);
   inputs.state_rejected = monitor_.RecentlyRejected(RxMessage::kPose, now) ||
@@ -219,9 +220,9 @@ ModeInputs ControlLoop::Judge(Time now, Trigger trigger) {
   if (!on_route && inputs.state_fresh) {
     const auto place = FindOnRoute(*reference_, road_, state.z, settings_.engage_max_heading_error);
     on_route = place.has_value();
-    route_start_ = step_ - place.value_or(0);
+    route_start_ = steps_.step() - place.value_or(0);
   }
-  const std::int64_t k = step_ - route_start_;
+  const std::int64_t k = steps_.step() - route_start_;
   report_.route_index = on_route ? static_cast<int>(k) : -1;
   inputs.near_route = on_route && speed >= settings_.engage_min_speed;
   inputs.route_end = on_route && k + controller_->horizon() >= reference_->size();
@@ -232,7 +233,7 @@ void ControlLoop::Solve(bool engaging) {
   if (engaging) {
     controller_->Reset();
   }
-  reference_->Window(static_cast<int>(step_ - route_start_), window_);
+  reference_->Window(static_cast<int>(steps_.step() - route_start_), window_);
   control::State z = states_.state().z;
   const double psi = window_.front()[control::kPsi];
   z[control::kPsi] = psi + control::WrapAngle(z[control::kPsi] - psi);
@@ -241,26 +242,26 @@ void ControlLoop::Solve(bool engaging) {
                                                  .reference = window_,
                                                  .road = road_,
                                                  .obstacles = obstacles_.obstacles()});
-  last_solve_ = &plan;
+  solve_ = &plan;
   report_.solver = ToBus(plan.status);
-  if (Acceptable(plan, controller_->horizon())) {
-    new_plan_ = &plan;
-    report_.plan_accepted = true;
-    plan_.assign(plan.u.begin(), plan.u.end());
-    plan_step_ = step_;
+  report_.iterations = plan.iterations;
+  report_.plan_accepted = Acceptable(plan, controller_->horizon());
+  if (report_.plan_accepted) {
+    plan_.Take(plan, steps_.step());
   } else {
     ++report_.solver_failures;
+    report_.last_solver_failure = SolverFault(plan.status);
   }
 }
 
 control::LimitResult ControlLoop::Command() const {
+  const std::int64_t step = steps_.step();
   if (mode_.mode == Mode::kActive) {
-    return limiter_.Limit(plan_[static_cast<std::size_t>(PlanAge())], applied_, PlanAge());
+    return limiter_.Limit(plan_.At(step), applied_, plan_.Age(step));
   }
   if (mode_.mode == Mode::kSafeStop) {
     // Along the rest of the last plan, then with the wheels held; never snapped to zero.
-    const double delta = PlanCoversNow() ? plan_[static_cast<std::size_t>(PlanAge())][control::kDelta]
-                                         : applied_[control::kDelta];
+    const double delta = plan_.Covers(step) ? plan_.At(step)[control::kDelta] : applied_[control::kDelta];
     return limiter_.Limit({delta, -settings_.stop_deceleration}, applied_, 0);
   }
   return Measured();
@@ -273,33 +274,19 @@ control::LimitResult ControlLoop::Measured() const {
 }
 
 dbc::FaultCode ControlLoop::Fault(const ModeInputs& inputs) const {
-  using dbc::FaultCode;
   if (mode_.mode == Mode::kSafeStop || mode_.mode == Mode::kFault) return FaultOf(mode_.cause);
-  if (!inputs.bus_up) return FaultCode::kBusDown;
-  if (!inputs.state_fresh) return inputs.state_rejected ? FaultCode::kStateInvalid : FaultCode::kStateStale;
-  if (!inputs.obstacles_fresh) return FaultCode::kObstaclesStale;
-  if (!inputs.request_fresh) return FaultCode::kDriverRequestStale;
-  if (last_solve_ != nullptr && new_plan_ == nullptr) {
-    switch (last_solve_->status) {
-      case control::SolverStatus::kInfeasible:
-        return FaultCode::kSolverInfeasible;
-      case control::SolverStatus::kIterationLimit:
-        return FaultCode::kSolverIterationLimit;
-      case control::SolverStatus::kSolved:
-      case control::SolverStatus::kNumericalFailure:
-        return FaultCode::kSolverNumericalFailure;
-    }
-  }
-  if (mode_.mode == Mode::kStandby && inputs.route_end) return FaultCode::kRouteEnd;
-  if (mode_.mode == Mode::kStandby && !inputs.near_route) return FaultCode::kOffRoute;
-  return FaultCode::kNone;
+  if (const auto cause = InputFault(inputs)) return FaultOf(*cause);
+  if (solve_ != nullptr && !report_.plan_accepted) return report_.last_solver_failure;
+  if (mode_.mode == Mode::kStandby && inputs.route_end) return dbc::FaultCode::kRouteEnd;
+  if (mode_.mode == Mode::kStandby && !inputs.near_route) return dbc::FaultCode::kOffRoute;
+  return dbc::FaultCode::kNone;
 }
 
 bool ControlLoop::Emit(const control::LimitedCommand& command, Trigger trigger) {
-  const Answer answer{
-      .mode = mode_.mode,
-      .state_counter = trigger == Trigger::kState ? states_.state().counter : kNoState,
-      .plan_age = static_cast<std::uint8_t>(plan_.empty() ? kNoPlanAge : std::min(PlanAge(), kNoPlanAge))};
+  const int age = plan_.exists() ? plan_.Age(steps_.step()) : kNoPlanAge;
+  const Answer answer{.mode = mode_.mode,
+                      .state_counter = trigger == Trigger::kState ? states_.state().counter : kNoState,
+                      .plan_age = static_cast<std::uint8_t>(std::min(age, kNoPlanAge))};
   frames_.resize(kCommands);
   if (!gate_.Encode(command, answer, std::span<can::Frame, kCommands>(frames_))) {
     frames_.clear();
@@ -308,43 +295,11 @@ bool ControlLoop::Emit(const control::LimitedCommand& command, Trigger trigger) 
   return true;
 }
 
-template <typename Message>
-void ControlLoop::EmitReport(const Message& message) {
-  frames_.emplace_back();
-  if (!gate_.Encode(message, frames_.back())) {
-    frames_.pop_back();  // a figure that is no number is not told
-  }
-}
-
-void ControlLoop::EmitStatus() {
-  const int iterations = last_solve_ != nullptr ? last_solve_->iterations : 0;
-  EmitReport(
-      dbc::ControllerStatus{.mode = mode_.mode,
-                            .fault_code = report_.fault,
-                            .solver_status = report_.solver,
-                            .iterations = static_cast<std::uint8_t>(std::clamp(iterations, 0, 255)),
-                            .solve_time = ToSeconds(report_.step_time),
-                            .deadline_misses = static_cast<std::uint16_t>(report_.deadline_misses % 1024)});
-}
-
 void ControlLoop::EmitReports() {
-  EmitStatus();
-  const control::Plan* solve = last_solve_;
-  EmitReport(dbc::SchedulingHealth{.scheduling_error = solve != nullptr ? solve->scheduling_error : 0.0,
-                                   .active_rows = static_cast<std::uint16_t>(
-                                       solve != nullptr ? std::clamp(solve->active_trust_rows, 0, 1023) : 0),
-                                   .largest_slack = solve != nullptr ? solve->largest_slack : 0.0});
-  if (!settings_.send_horizon || new_plan_ == nullptr) {
-    return;
-  }
-  EmitReport(dbc::HorizonHeader{
-      .points = static_cast<std::uint8_t>(std::min<std::size_t>(new_plan_->z.size(), kMaxPoints)),
-      .state_counter = states_.state().counter,
-      .step = ToSeconds(settings_.period)});
-  for (std::size_t i = 0; i < std::min(new_plan_->z.size(), kMaxPoints); ++i) {
-    const control::State& z = new_plan_->z[i];
-    EmitReport(
-        dbc::HorizonPoint{.index = static_cast<std::uint8_t>(i), .X = z[control::kX], .Y = z[control::kY]});
+  AppendStatus(report_, gate_, frames_);
+  AppendHealth(solve_, gate_, frames_);
+  if (settings_.send_horizon && report_.plan_accepted) {
+    AppendHorizon(*solve_, states_.state().counter, settings_.period, gate_, frames_);
   }
 }
 

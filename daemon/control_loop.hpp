@@ -1,7 +1,7 @@
 // The way of a frame, from the bus to the bus:
 //
-//   Receive   frame ─► MessageMonitor ─► physical values ─► StateAssembler, ObstacleAssembler, driver's
-//   request Cycle     what is known ─► plan ─► mode ─► command ─► CommandLimiter ─► CommandGate ─► frames
+//   Receive   frame ─► MessageMonitor ─► physical values ─► StateAssembler, ObstacleAssembler, driver's request
+//   Cycle     what is known ─► plan ─► mode ─► command ─► CommandLimiter ─► CommandGate ─► frames
 //
 // A cycle runs when the state set of a new counter is complete, and by a timer when none came in time. The
 // loop reads no clock, does no I/O and logs nothing; after construction it does not allocate. So the daemon
@@ -24,10 +24,13 @@
 #include "control/controller.hpp"
 #include "control/reference.hpp"
 #include "daemon/command_gate.hpp"
+#include "daemon/cycle_report.hpp"
 #include "daemon/message_monitor.hpp"
 #include "daemon/mode_machine.hpp"
 #include "daemon/obstacle_assembler.hpp"
+#include "daemon/plan_in_force.hpp"
 #include "daemon/state_assembler.hpp"
+#include "daemon/step_counter.hpp"
 #include "daemon/time.hpp"
 #include "dbc/vehicle_bus.hpp"
 
@@ -45,25 +48,6 @@ struct LoopSettings {
 };
 
 enum class Trigger : std::uint8_t { kState, kTimer };
-
-// What happened in the last cycle, for a log.
-struct CycleReport {
-  Mode mode = Mode::kInit;
-  Mode previous_mode = Mode::kInit;  // another one: the mode changed in this cycle
-  Cause cause = Cause::kStart;       // of the present mode
-  dbc::FaultCode fault = dbc::FaultCode::kNone;
-  dbc::SolverStatus solver = dbc::SolverStatus::kNone;
-  bool plan_accepted = false;
-  bool engagement_refused = false;  // the driver asked in this cycle and did not get it
-  int plan_age = -1;                // cycles, -1 without a plan
-  int route_index = -1;             // point of the reference, -1 off the route
-  bool limited = false;             // the limiter changed the command
-  control::Input command = control::Input::Zero();
-  Time step_time{};  // by the stopwatch
-  std::uint64_t cycles = 0;
-  std::uint64_t deadline_misses = 0;
-  std::uint64_t solver_failures = 0;  // plans not accepted
-};
 
 class ControlLoop {
  public:
@@ -97,20 +81,13 @@ class ControlLoop {
   [[nodiscard]] const LoopSettings& settings() const { return settings_; }
 
  private:
-  void CountStep(Trigger trigger);
   [[nodiscard]] ModeInputs Judge(Time now, Trigger trigger);
   void Solve(bool engaging);
   [[nodiscard]] control::LimitResult Command() const;
   [[nodiscard]] control::LimitResult Measured() const;
   [[nodiscard]] dbc::FaultCode Fault(const ModeInputs& inputs) const;
   [[nodiscard]] bool Emit(const control::LimitedCommand& command, Trigger trigger);
-  template <typename Message>
-  void EmitReport(const Message& message);
-  void EmitStatus();
   void EmitReports();
-
-  [[nodiscard]] int PlanAge() const { return static_cast<int>(step_ - plan_step_); }
-  [[nodiscard]] bool PlanCoversNow() const { return PlanAge() < static_cast<int>(plan_.size()); }
 
   LoopSettings settings_;
   control::Controller* controller_;
@@ -125,21 +102,18 @@ class ControlLoop {
   CommandGate gate_;
 
   bool bus_up_ = true;
+  Time last_sent_{};  // the last cycle that found the bus up
   dbc::DriverRequest request_;
   bool released_ = false;       // since the last cycle
   bool override_seen_ = false;  // since the last cycle
   Time trigger_time_{};
   ModeState mode_;
 
-  std::int64_t step_ = 0;         // t_s goes by from one to the next
-  std::int64_t state_step_ = 0;   // of the last state set
-  int state_counter_ = -1;        // of the last state set that was counted
+  StepCounter steps_;
   std::int64_t route_start_ = 0;  // reference point k belongs to step route_start_ + k
 
-  std::vector<control::Input> plan_;                 // inputs of the last accepted plan; empty: none
-  std::int64_t plan_step_ = 0;                       // the step at which it was made
-  const control::Plan* new_plan_ = nullptr;          // of this cycle, if accepted
-  const control::Plan* last_solve_ = nullptr;        // of this cycle, accepted or not
+  PlanInForce plan_;
+  const control::Plan* solve_ = nullptr;             // of this cycle, accepted or not
   control::Input applied_ = control::Input::Zero();  // last command in Active and SafeStop, else as measured
 
   std::vector<control::State> window_;

@@ -1,20 +1,20 @@
 #include "daemon/mode_machine.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace lpvmpcd {
 namespace {
 
-// What ends Active with a stop, the gravest first.
+// What ends Active with a stop.
 std::optional<Cause> StopCause(const ModeInputs& inputs) {
-  if (!inputs.bus_up) return Cause::kBusDown;
-  if (!inputs.state_fresh) return inputs.state_rejected ? Cause::kStateInvalid : Cause::kStateStale;
-  if (!inputs.obstacles_fresh) return Cause::kObstaclesStale;
-  if (!inputs.request_fresh) return Cause::kDriverRequestStale;
+  if (const auto cause = InputFault(inputs)) return cause;
   if (inputs.route_end) return Cause::kRouteEnd;
   if (!inputs.plan_usable) return Cause::kPlanExhausted;
   return std::nullopt;
+}
+
+Cause SilenceCause(const ModeInputs& inputs) {
+  return inputs.bus_up ? Cause::kSilent : Cause::kBusDown;
 }
 
 int CountHealthy(const ModeState& state, const ModeInputs& inputs) {
@@ -49,7 +49,7 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs) {
       if (EngagementRequested(state, inputs) && inputs.plan_usable) {
         enter(Mode::kActive, Cause::kEngaged);
       } else {
-        const bool edge_waits = !inputs.state_new && RisingEdge(state, inputs);
+        const bool edge_waits = !inputs.state_new && !inputs.override_seen && RisingEdge(state, inputs);
         next.armed = inputs.request_fresh && (!inputs.engage || edge_waits);
       }
       break;
@@ -59,6 +59,8 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs) {
         enter(Mode::kStandby, Cause::kOverride);
       } else if (withdrawn) {
         enter(Mode::kStandby, Cause::kReleased);
+      } else if (inputs.silent) {
+        enter(Mode::kFault, SilenceCause(inputs));
       } else if (const auto cause = StopCause(inputs)) {
         enter(Mode::kSafeStop, *cause);
       }
@@ -68,6 +70,8 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs) {
         enter(Mode::kStandby, Cause::kOverride);
       } else if (inputs.standstill) {
         enter(Mode::kStandby, Cause::kStandstill);
+      } else if (inputs.silent) {
+        enter(Mode::kFault, SilenceCause(inputs));
       }
       break;
     case Mode::kFault:
@@ -89,6 +93,14 @@ bool EngagementRequested(const ModeState& state, const ModeInputs& inputs) {
          !inputs.override_seen;
 }
 
+std::optional<Cause> InputFault(const ModeInputs& inputs) {
+  if (!inputs.bus_up) return Cause::kBusDown;
+  if (!inputs.state_fresh) return inputs.state_rejected ? Cause::kStateInvalid : Cause::kStateStale;
+  if (!inputs.obstacles_fresh) return Cause::kObstaclesStale;
+  if (!inputs.request_fresh) return Cause::kDriverRequestStale;
+  return std::nullopt;
+}
+
 dbc::FaultCode FaultOf(Cause cause) {
   switch (cause) {
     case Cause::kBusDown:
@@ -105,6 +117,7 @@ dbc::FaultCode FaultOf(Cause cause) {
       return dbc::FaultCode::kRouteEnd;
     case Cause::kPlanExhausted:
       return dbc::FaultCode::kPlanExhausted;
+    case Cause::kSilent:
     case Cause::kInternalError:
       return dbc::FaultCode::kInternalError;
     case Cause::kStart:
@@ -149,6 +162,8 @@ std::string_view Name(Cause cause) {
       return "end of route";
     case Cause::kPlanExhausted:
       return "plan exhausted";
+    case Cause::kSilent:
+      return "no command sent for too long";
     case Cause::kInternalError:
       return "internal error";
   }

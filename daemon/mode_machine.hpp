@@ -8,10 +8,13 @@
 // Engagement needs a rising edge of the driver's request, seen in Standby, while all inputs are healthy, the
 // vehicle stands near the route, nobody overrides and a first plan exists. An edge that comes while one of
 // these is missing is spent: the driver has to ask again. (An edge in a cycle without a new state waits for
-// the next state.) Mode Degraded exists on the bus; this version does not enter it.
+// the next state.) Whoever has been silent for long while commanding, the bus away or the process stopped, has lost
+// the vehicle to others: no command is enabled again before the driver asks anew. Mode Degraded exists on the bus;
+// this version does not enter it.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "dbc/messages.hpp"
@@ -37,6 +40,7 @@ struct ModeInputs {
   bool plan_usable = false;    // a command can be taken from a plan that is not exhausted
   bool route_end = false;      // less than a horizon of the route is left
   bool standstill = false;     // a fresh state says so
+  bool silent = false;         // for many cycles no command has gone out
   bool internal_error = false;
 
   [[nodiscard]] bool Healthy() const {
@@ -60,12 +64,15 @@ enum class Cause : std::uint8_t {
   kDriverRequestStale,
   kRouteEnd,
   kPlanExhausted,
+  kSilent,
   kInternalError,
 };
 [[nodiscard]] std::string_view Name(Cause cause);
 [[nodiscard]] std::string_view Name(Mode mode);
 // kNone for a cause that is an event and no fault.
 [[nodiscard]] dbc::FaultCode FaultOf(Cause cause);
+// What is wrong with the inputs, the gravest first: the reason of a stop, or why it would not engage.
+[[nodiscard]] std::optional<Cause> InputFault(const ModeInputs& inputs);
 
 struct ModeState {
   Mode mode = Mode::kInit;

@@ -28,8 +28,9 @@ bool StateAssembler::Update(const dbc::VehicleFeedback& feedback, std::uint8_t c
 }
 
 void StateAssembler::Begin(Part part, std::uint8_t counter, Time time) {
-  // The same part twice is the counter come round again: a new set, too.
-  if (parts_ != 0 && (counter != next_.counter || (parts_ & part) != 0)) {
+  // The same part twice, or a part that comes late, is the counter come round again: a new set, too.
+  const bool other = counter != next_.counter || (parts_ & part) != 0 || time - next_.timestamp > longest_;
+  if (parts_ != 0 && other) {
     ++dropped_;
     parts_ = 0;
   }

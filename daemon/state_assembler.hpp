@@ -19,6 +19,9 @@ struct VehicleState {
 
 class StateAssembler {
  public:
+  // `period` of the sets: two frames further apart than half a round of the counter, 7 periods, never make a set.
+  explicit StateAssembler(Time period) : longest_(7 * period) {}
+
   // Each returns true if its frame completes a set, which then is `state()`. A frame of another counter than
   // the set under way begins a new set; the incomplete one is dropped. So is a set with a value that is not
   // finite, which a DBC with floating-point signals can carry.
@@ -35,6 +38,7 @@ class StateAssembler {
   void Begin(Part part, std::uint8_t counter, Time time);
   [[nodiscard]] bool Finish(Part part);
 
+  Time longest_;
   VehicleState state_;
   VehicleState next_;  // the set under way
   unsigned parts_ = 0;

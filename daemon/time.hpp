@@ -1,6 +1,7 @@
 // Time inside the daemon: an argument everywhere, read from a clock by the service alone.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 
 namespace lpvmpcd {
@@ -15,6 +16,12 @@ using Time = std::chrono::nanoseconds;
 
 [[nodiscard]] constexpr double ToSeconds(Time time) {
   return std::chrono::duration<double>(time).count();
+}
+
+// When a frame arrived. The kernel stamps frames by a clock that may be set at any time, so the age that this clock
+// tells is believed only within what is certain: not later than now, not before the queue was last seen empty.
+[[nodiscard]] constexpr Time ArrivalTime(Time now, Time age, Time last_empty) {
+  return std::clamp(now - age, std::min(last_empty, now), now);
 }
 
 }  // namespace lpvmpcd

@@ -414,6 +414,37 @@ TEST_F(ControlLoopTest, SafeStopFollowsTheRestOfThePlanAndEndsAtStandstill) {
   EXPECT_EQ(loop_.report().cause, Cause::kStandstill);
 }
 
+TEST_F(ControlLoopTest, BusThatWasAwayForLongFindsNoCommandEnabled) {
+  Engage();
+  loop_.SetBusUp(false);
+  for (int i = 0; i < 39; ++i) {
+    EXPECT_EQ(TimerPeriod().steering.mode, Mode::kSafeStop);
+  }
+  Sent sent;
+  for (int i = 0; i < 5; ++i) {
+    sent = TimerPeriod();
+  }
+  EXPECT_EQ(sent.steering.mode, Mode::kFault);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kBusDown);
+  loop_.SetBusUp(true);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(Period().steering.enable);  // the request is still held
+  }
+  vehicle_.request.engage = false;
+  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+  Period();
+  vehicle_.request.engage = true;
+  EXPECT_TRUE(Period().steering.enable);
+}
+
+TEST_F(ControlLoopTest, DaemonThatStoodStillForLongEnablesNoCommand) {
+  Engage();
+  now_ += 10s;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(Period().steering.mode, Mode::kFault);
+  }
+}
+
 TEST_F(ControlLoopTest, EndOfTheRouteStopsTheVehicle) {
   Engage();
   for (int i = 0; i < 300 && loop_.report().mode == Mode::kActive; ++i) {

@@ -95,6 +95,23 @@ const std::vector<Row> kTable = {
      kStaysInActive,
      {Mode::kStandby, Cause::kStandstill},
      kStaysInFault},
+    {"silence",
+     [](ModeInputs& i) { i.silent = true; },
+     kComesUp,
+     kStaysInStandby,
+     {Mode::kFault, Cause::kSilent},
+     {Mode::kFault, Cause::kSilent},
+     kStaysInFault},
+    {"silence, bus down",
+     [](ModeInputs& i) {
+       i.silent = true;
+       i.bus_up = false;
+     },
+     kStaysInInit,
+     kStaysInStandby,
+     {Mode::kFault, Cause::kBusDown},
+     {Mode::kFault, Cause::kBusDown},
+     kStaysInFault},
     {"timer cycle", [](ModeInputs& i) { i.state_new = false; }, kComesUp, kStaysInStandby, kStaysInActive,
      kStaysInSafeStop, kStaysInFault},
     {"internal error", [](ModeInputs& i) { i.internal_error = true; }, kFails, kFails, kFails, kFails,
@@ -193,6 +210,14 @@ TEST(ModeMachine, EdgeInATimerCycleWaitsForTheNextState) {
   EXPECT_EQ(Next(state, Well()).mode, Mode::kActive);
 }
 
+TEST(ModeMachine, EdgeInATimerCycleIsSpentByAnOverride) {
+  ModeInputs inputs = Well();
+  inputs.state_new = false;
+  inputs.override_seen = true;
+  const ModeState state = Next(In(Mode::kStandby, true), inputs);
+  EXPECT_EQ(Next(state, Well()).mode, Mode::kStandby);
+}
+
 TEST(ModeMachine, AfterAnOverrideTheDriverHasToAskAgain) {
   ModeInputs inputs = Well();
   inputs.override_seen = true;
@@ -218,6 +243,7 @@ TEST(ModeMachine, FaultsHaveACodeAndEventsHaveNone) {
   EXPECT_EQ(FaultOf(Cause::kDriverRequestStale), dbc::FaultCode::kDriverRequestStale);
   EXPECT_EQ(FaultOf(Cause::kRouteEnd), dbc::FaultCode::kRouteEnd);
   EXPECT_EQ(FaultOf(Cause::kPlanExhausted), dbc::FaultCode::kPlanExhausted);
+  EXPECT_EQ(FaultOf(Cause::kSilent), dbc::FaultCode::kInternalError);
   EXPECT_EQ(FaultOf(Cause::kInternalError), dbc::FaultCode::kInternalError);
   for (const Cause event : {Cause::kStart, Cause::kInputsHealthy, Cause::kEngaged, Cause::kReleased,
                             Cause::kOverride, Cause::kStandstill, Cause::kRecovered}) {

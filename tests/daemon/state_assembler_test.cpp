@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(StateAssembler, SetIsCompleteWithItsThirdFrameInAnyOrder) {
-  StateAssembler assembler;
+  StateAssembler assembler(50ms);
   EXPECT_FALSE(
       assembler.Update(dbc::VehicleFeedback{.psi = 0.5, .delta = 0.1, .acceleration = 1.0}, 4, 12ms));
   EXPECT_FALSE(assembler.Update(dbc::VehiclePose{.X = 1.0, .Y = 2.0}, 4, 10ms));
@@ -27,7 +27,7 @@ TEST(StateAssembler, SetIsCompleteWithItsThirdFrameInAnyOrder) {
 }
 
 TEST(StateAssembler, FramesOfTwoCountersNeverMakeASet) {
-  StateAssembler assembler;
+  StateAssembler assembler(50ms);
   EXPECT_FALSE(assembler.Update(dbc::VehiclePose{.X = 1.0}, 4, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehicleMotion{}, 4, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehicleFeedback{}, 5, 50ms));
@@ -39,7 +39,7 @@ TEST(StateAssembler, FramesOfTwoCountersNeverMakeASet) {
 }
 
 TEST(StateAssembler, SamePartTwiceBeginsANewSet) {
-  StateAssembler assembler;
+  StateAssembler assembler(50ms);
   EXPECT_FALSE(assembler.Update(dbc::VehiclePose{.X = 1.0}, 4, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehicleMotion{}, 4, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehiclePose{.X = 2.0}, 4, 750ms));  // fifteen sets later
@@ -48,8 +48,17 @@ TEST(StateAssembler, SamePartTwiceBeginsANewSet) {
   EXPECT_EQ(assembler.state().z[control::kX], 2.0);
 }
 
+TEST(StateAssembler, PartFromTheRoundBeforeMakesNoSetWithPartsOfThisRound) {
+  StateAssembler assembler(50ms);
+  EXPECT_FALSE(assembler.Update(dbc::VehiclePose{.X = 1.0}, 4, 0ms));  // the rest of fifteen sets is lost
+  EXPECT_FALSE(assembler.Update(dbc::VehicleMotion{}, 4, 750ms));
+  EXPECT_FALSE(assembler.Update(dbc::VehicleFeedback{}, 4, 750ms));
+  EXPECT_TRUE(assembler.Update(dbc::VehiclePose{.X = 2.0}, 4, 750ms));
+  EXPECT_EQ(assembler.state().z[control::kX], 2.0);
+}
+
 TEST(StateAssembler, HeadingIsWrapped) {
-  StateAssembler assembler;
+  StateAssembler assembler(50ms);
   EXPECT_FALSE(assembler.Update(dbc::VehiclePose{}, 0, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehicleMotion{}, 0, 0ms));
   EXPECT_TRUE(assembler.Update(dbc::VehicleFeedback{.psi = 2.0 * std::numbers::pi + 0.25}, 0, 0ms));
@@ -57,7 +66,7 @@ TEST(StateAssembler, HeadingIsWrapped) {
 }
 
 TEST(StateAssembler, SetWithAValueThatIsNotFiniteIsDropped) {
-  StateAssembler assembler;
+  StateAssembler assembler(50ms);
   EXPECT_FALSE(assembler.Update(dbc::VehiclePose{.X = std::numeric_limits<double>::quiet_NaN()}, 0, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehicleMotion{}, 0, 0ms));
   EXPECT_FALSE(assembler.Update(dbc::VehicleFeedback{}, 0, 0ms));

@@ -1,0 +1,33 @@
+// What happened in a control cycle, for the bus, the log and the service manager.
+#pragma once
+
+#include <cstdint>
+
+#include "control/types.hpp"
+#include "daemon/mode_machine.hpp"
+#include "daemon/time.hpp"
+#include "dbc/messages.hpp"
+
+namespace lpvmpcd {
+
+struct CycleReport {
+  Mode mode = Mode::kInit;
+  Mode previous_mode = Mode::kInit;  // another one: the mode changed in this cycle
+  Cause cause = Cause::kStart;       // of the present mode
+  dbc::FaultCode fault = dbc::FaultCode::kNone;
+  dbc::SolverStatus solver = dbc::SolverStatus::kNone;
+  int iterations = 0;  // of the solver
+  bool plan_accepted = false;
+  bool engagement_refused = false;  // the driver asked in this cycle and did not get it
+  int plan_age = -1;                // cycles, -1 without a plan
+  int route_index = -1;             // point of the reference, -1 off the route
+  bool limited = false;             // the limiter changed the command
+  control::Input command = control::Input::Zero();
+  Time step_time{};  // by the stopwatch
+  std::uint64_t cycles = 0;
+  std::uint64_t deadline_misses = 0;
+  std::uint64_t solver_failures = 0;                           // plans not accepted
+  dbc::FaultCode last_solver_failure = dbc::FaultCode::kNone;  // why the last of them was not
+};
+
+}  // namespace lpvmpcd

@@ -1,0 +1,55 @@
+#include "daemon/report_frames.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lpvmpcd {
+namespace {
+
+constexpr std::size_t kMaxPoints = 127;
+
+template <typename Message>
+void Append(const Message& message, CommandGate& gate, std::vector<can::Frame>& frames) {
+  frames.emplace_back();
+  if (!gate.Encode(message, frames.back())) {
+    frames.pop_back();
+  }
+}
+
+}  // namespace
+
+void AppendStatus(const CycleReport& report, CommandGate& gate, std::vector<can::Frame>& frames) {
+  Append(dbc::ControllerStatus{.mode = report.mode,
+                               .fault_code = report.fault,
+                               .solver_status = report.solver,
+                               .iterations = static_cast<std::uint8_t>(std::clamp(report.iterations, 0, 255)),
+                               .solve_time = ToSeconds(report.step_time),
+                               .deadline_misses = static_cast<std::uint16_t>(report.deadline_misses % 1024)},
+         gate, frames);
+}
+
+void AppendHealth(const control::Plan* solve, CommandGate& gate, std::vector<can::Frame>& frames) {
+  dbc::SchedulingHealth health;
+  if (solve != nullptr) {
+    health = {.scheduling_error = solve->scheduling_error,
+              .active_rows = static_cast<std::uint16_t>(std::clamp(solve->active_trust_rows, 0, 1023)),
+              .largest_slack = solve->largest_slack};
+  }
+  Append(health, gate, frames);
+}
+
+void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, Time period, CommandGate& gate,
+                   std::vector<can::Frame>& frames) {
+  const std::size_t points = std::min(plan.z.size(), kMaxPoints);
+  Append(dbc::HorizonHeader{.points = static_cast<std::uint8_t>(points),
+                            .state_counter = state_counter,
+                            .step = ToSeconds(period)},
+         gate, frames);
+  for (std::size_t i = 0; i < points; ++i) {
+    const control::State& z = plan.z[i];
+    Append(dbc::HorizonPoint{.index = static_cast<std::uint8_t>(i), .X = z[control::kX], .Y = z[control::kY]},
+           gate, frames);
+  }
+}
+
+}  // namespace lpvmpcd

@@ -1,0 +1,26 @@
+// The frames that tell about a cycle, appended to `frames`, each if its figures are numbers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "can/frame.hpp"
+#include "control/controller.hpp"
+#include "daemon/command_gate.hpp"
+#include "daemon/cycle_report.hpp"
+#include "daemon/time.hpp"
+
+namespace lpvmpcd {
+
+// ControllerStatus.
+void AppendStatus(const CycleReport& report, CommandGate& gate, std::vector<can::Frame>& frames);
+
+// SchedulingHealth of a control step; without one (null) its figures are 0.
+void AppendHealth(const control::Plan* solve, CommandGate& gate, std::vector<can::Frame>& frames);
+
+// PlannedHorizon, header and points (at most 127, as many as the bus counts), of a plan made for the state of this
+// counter.
+void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, Time period, CommandGate& gate,
+                   std::vector<can::Frame>& frames);
+
+}  // namespace lpvmpcd

@@ -1,0 +1,48 @@
+// Sends a cycle's frames and tells from it how the bus is: up if our commands go out, and in no other case.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+
+#include "can/frame.hpp"
+#include "can/socket.hpp"
+
+namespace lpvmpcd {
+
+enum class BusState : std::uint8_t { kUp, kDown, kGone };  // from good to bad
+
+class Transmitter {
+ public:
+  using SendFrame = std::function<can::SendStatus(const can::Frame&)>;
+
+  explicit Transmitter(SendFrame send) : send_(std::move(send)) {}
+
+  // In order, the pair of commands first; ends with the first frame that is not sent, so that neither an
+  // acceleration goes out without its steering nor a report in place of a command. A full queue that refuses
+  // commands three times in a row is a bus that is down; reports it may refuse.
+  BusState Send(std::span<const can::Frame> frames);
+
+  // Tries again while the queue is full, `wait` between two attempts, at most a hundred of them. False: not all
+  // were sent.
+  [[nodiscard]] bool SendLast(std::span<const can::Frame> frames, const std::function<void()>& wait);
+
+  [[nodiscard]] BusState bus() const { return bus_; }
+  // Of the last frame tried: the reason, if the bus is not up.
+  [[nodiscard]] can::SendStatus last_status() const { return status_; }
+  // Frames that a full queue refused, and those left unsent after them.
+  [[nodiscard]] std::uint64_t unsent() const { return unsent_; }
+
+ private:
+  [[nodiscard]] std::size_t SendInOrder(std::span<const can::Frame> frames);
+
+  SendFrame send_;
+  BusState bus_ = BusState::kUp;
+  can::SendStatus status_ = can::SendStatus::kSent;
+  int refused_in_a_row_ = 0;  // commands
+  std::uint64_t unsent_ = 0;
+};
+
+}  // namespace lpvmpcd
