@@ -1,6 +1,7 @@
 #include "daemon/event_log.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <spdlog/pattern_formatter.h>
@@ -35,6 +36,7 @@ class JournalPriority : public spdlog::custom_flag_formatter {
 }  // namespace
 
 void OpenLog(const std::string& level) {
+  std::signal(SIGPIPE, SIG_IGN);
   auto logger =
       std::make_shared<spdlog::logger>("lpvmpcd", std::make_shared<spdlog::sinks::stderr_sink_st>());
   auto formatter = std::make_unique<spdlog::pattern_formatter>();
@@ -67,7 +69,9 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
                 Name(report.previous_mode), Name(report.mode), Name(report.cause));
   }
   if (report.engagement_refused) {
-    spdlog::warn("engagement refused: {}", Name(report.fault));
+    spdlog::warn("engagement refused: {}", report.fault == dbc::FaultCode::kNone
+                                               ? "driver overrides, or inputs not healthy for long enough"
+                                               : Name(report.fault));
   }
 
   std::uint64_t n = 0;
@@ -85,7 +89,7 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
     spdlog::warn("obstacle lists that did not fit their objects: {}", n);
   }
   if (solver_failures_.Tell(report.solver_failures, now, n)) {
-    spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.fault));
+    spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.last_solver_failure));
   }
   if (deadline_misses_.Tell(report.deadline_misses, now, n)) {
     spdlog::warn("deadlines missed: {}", n);
@@ -105,9 +109,9 @@ void EventLog::Dropped(std::uint64_t total, Time now) {
   }
 }
 
-void EventLog::QueueFull(std::uint64_t total, Time now) {
+void EventLog::Unsent(std::uint64_t total, Time now) {
   std::uint64_t n = 0;
-  if (queue_full_.Tell(total, now, n)) {
+  if (unsent_.Tell(total, now, n)) {
     spdlog::warn("transmit queue full: {} frames not sent", n);
   }
 }

@@ -12,15 +12,15 @@
 
 namespace lpvmpcd {
 
-// Sets up the log on stderr: with time and level on a terminal; with the journal's "<6>" priorities where
-// systemd reads it. `level`: "debug", "info", "warning" or "error".
+// Sets up the log on stderr: with time and level on a terminal; with the journal's "<6>" priorities where systemd
+// reads it. A reader that goes away ends the log, not the daemon: SIGPIPE is ignored. `level`: "debug", "info",
+// "warning" or "error".
 void OpenLog(const std::string& level);
 
 // Says how often something has happened, at most once a second.
 class EventCount {
  public:
-  // `total`: how often it has happened since start. True: `news` of it have not been told yet, and it is
-  // time.
+  // `total`: how often it has happened since start. True: `news` of it have not been told yet, and it is time.
   [[nodiscard]] bool Tell(std::uint64_t total, Time now, std::uint64_t& news);
 
  private:
@@ -34,11 +34,12 @@ class EventLog {
   void Cycle(const ControlLoop& loop, Trigger trigger, Time now);
   // The kernel's count of frames lost because the receive buffer was full.
   void Dropped(std::uint64_t total, Time now);
-  void QueueFull(std::uint64_t total, Time now);
+  // Frames not sent because the transmit queue was full.
+  void Unsent(std::uint64_t total, Time now);
 
  private:
   std::array<EventCount, kRxFaults> rx_faults_;
-  EventCount lost_, rejected_lists_, solver_failures_, deadline_misses_, late_states_, dropped_, queue_full_;
+  EventCount lost_, rejected_lists_, solver_failures_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;
 };
 
@@ -49,8 +50,7 @@ class Notifier {
 
   void Ready();
   void Stopping();
-  // Mode and fault: at once when they change, otherwise once a second; and the watchdog's food if it asks for
-  // it.
+  // Mode and fault: at once when they change, otherwise once a second; and the watchdog's food if it asks for it.
   void Cycle(const CycleReport& report, Time now);
 
  private:

@@ -11,14 +11,14 @@
 #include <sys/epoll.h>
 #include <sys/signalfd.h>
 #include <sys/timerfd.h>
+#include <thread>
 
 namespace lpvmpcd {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kFramesAtOnce = 256;         // then the timer and the signals have their turn
-constexpr int kUnsentCyclesUntilDown = 3;  // commands refused by a full queue
+constexpr int kFramesAtOnce = 256;  // then the timer and the signals have their turn
 constexpr Time kRetryPeriod = 100ms;
 
 [[nodiscard]] int Checked(int result, const char* call) {
@@ -72,6 +72,22 @@ can::SocketOptions Options(const ControlLoop& loop) {
   return options;
 }
 
+const char* WhyDown(can::SendStatus status, int error) {
+  switch (status) {
+    case can::SendStatus::kQueueFull:
+      return "does not send";
+    case can::SendStatus::kInvalidFrame:
+      return "refuses our frames";
+    case can::SendStatus::kError:
+      return std::strerror(error);
+    case can::SendStatus::kSent:
+    case can::SendStatus::kInterfaceDown:
+    case can::SendStatus::kInterfaceGone:
+      break;
+  }
+  return "is down";
+}
+
 }  // namespace
 
 Time MonotonicNow() {
@@ -85,7 +101,11 @@ Service::Service(const ServiceSettings& settings, ControlLoop& loop)
       signals_(BlockedSignals()),
       timer_(NewTimer()),
       retry_timer_(NewTimer()),
-      epoll_(Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")) {
+      epoll_(Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
+      transmitter_([this](const can::Frame& frame) {
+        return loop_->gate().MaySend(frame) ? socket_.Send(frame) : can::SendStatus::kInvalidFrame;
+      }),
+      last_empty_(MonotonicNow()) {
   for (const int fd : {socket_.fd(), signals_.get(), timer_.get(), retry_timer_.get()}) {
     epoll_event event{};
     event.events = EPOLLIN;
@@ -123,7 +143,7 @@ void Service::Run() {
     }
   }
   notifier_.Stopping();
-  Send(loop_->Disable());
+  SendLastWords();
   spdlog::info("stopped after {} cycles, {} deadline misses", loop_->report().cycles,
                loop_->report().deadline_misses);
 }
@@ -132,37 +152,34 @@ Time Service::Now() const {
   return settings_.lockstep ? cycles_ * settings_.period : MonotonicNow();
 }
 
-// The kernel stamps with CLOCK_REALTIME, which may be set while we run: only the age of the frame is taken
-// from it.
 Time Service::Received(const can::Frame& frame) const {
   if (settings_.lockstep) {
     return Now();
   }
-  return MonotonicNow() - std::clamp<Time>(Read(CLOCK_REALTIME) - frame.timestamp, 0s, 1s);
+  return ArrivalTime(MonotonicNow(), Read(CLOCK_REALTIME) - frame.timestamp, last_empty_);
 }
 
 void Service::ReadSocket() {
+  const Time before = MonotonicNow();
   can::Received received;
   for (int i = 0; i < kFramesAtOnce; ++i) {
     switch (socket_.Receive(received)) {
       case can::ReceiveStatus::kFrame:
-        if (unsent_cycles_ < kUnsentCyclesUntilDown) {
-          SetBus(Bus::kUp, "is up");
-        }
         if (loop_->Receive(received.frame, Received(received.frame))) {
           RunCycle(Trigger::kState);
         }
         break;
       case can::ReceiveStatus::kWouldBlock:
+        last_empty_ = before;
         return;
       case can::ReceiveStatus::kInterfaceDown:
-        SetBus(Bus::kDown, "is down");
+        SetBus(BusState::kDown, "is down");
         return;
       case can::ReceiveStatus::kInterfaceGone:
-        SetBus(Bus::kGone, "is gone");
+        SetBus(BusState::kGone, "is gone");
         return;
       case can::ReceiveStatus::kError:
-        SetBus(Bus::kDown, std::strerror(socket_.last_error()));
+        SetBus(BusState::kDown, std::strerror(socket_.last_error()));
         return;
     }
   }
@@ -183,43 +200,30 @@ void Service::RunCycle(Trigger trigger) {
   const Time now = MonotonicNow();
   log_.Cycle(*loop_, trigger, now);
   log_.Dropped(socket_.dropped(), now);
-  log_.QueueFull(queue_full_, now);
+  log_.Unsent(transmitter_.unsent(), now);
   notifier_.Cycle(loop_->report(), now);
   ++cycles_;
 }
 
 void Service::Send(std::span<const can::Frame> frames) {
-  bool unsent = false;
-  for (const can::Frame& frame : frames) {
-    if (!loop_->gate().MaySend(frame)) {
-      continue;
-    }
-    switch (socket_.Send(frame)) {
-      case can::SendStatus::kSent:
-        break;
-      case can::SendStatus::kQueueFull:
-        ++queue_full_;
-        unsent = true;
-        break;
-      case can::SendStatus::kInterfaceDown:
-        SetBus(Bus::kDown, "is down");
-        return;
-      case can::SendStatus::kInterfaceGone:
-        SetBus(Bus::kGone, "is gone");
-        return;
-      case can::SendStatus::kInvalidFrame:
-        SetBus(Bus::kDown, "refuses our frames");
-        return;
-      case can::SendStatus::kError:
-        SetBus(Bus::kDown, std::strerror(socket_.last_error()));
-        return;
-    }
+  switch (transmitter_.Send(frames)) {
+    case BusState::kUp:
+      SetBus(BusState::kUp, "is up");
+      break;
+    case BusState::kGone:
+      SetBus(BusState::kGone, "is gone");
+      break;
+    case BusState::kDown:
+      SetBus(BusState::kDown, WhyDown(transmitter_.last_status(), socket_.last_error()));
+      break;
   }
-  unsent_cycles_ = unsent ? unsent_cycles_ + 1 : 0;
-  if (unsent_cycles_ >= kUnsentCyclesUntilDown) {
-    SetBus(Bus::kDown, "does not send");
-  } else if (!unsent) {
-    SetBus(Bus::kUp, "is up");
+}
+
+// The last words matter most: a queue that is full for a moment must not swallow them.
+void Service::SendLastWords() {
+  const auto wait = [] { std::this_thread::sleep_for(1ms); };
+  if (!transmitter_.SendLast(loop_->Disable(), wait)) {
+    spdlog::error("the last commands, not enabled, could not be sent on {}", settings_.interface);
   }
 }
 
@@ -231,20 +235,20 @@ void Service::Arm(Trigger last) {
   }
 }
 
-void Service::SetBus(Bus bus, const char* what) {
+void Service::SetBus(BusState bus, const char* what) {
   if (bus == bus_) {
     return;
   }
   spdlog::log(bus > bus_ ? spdlog::level::err : spdlog::level::info, "{} {}", settings_.interface, what);
-  const Time retry = bus == Bus::kGone ? kRetryPeriod : 0s;
+  const Time retry = bus == BusState::kGone ? kRetryPeriod : 0s;
   Set(retry_timer_, retry, retry);
   bus_ = bus;
-  loop_->SetBusUp(bus == Bus::kUp);
+  loop_->SetBusUp(bus == BusState::kUp);
 }
 
 void Service::Retry() {
   if (socket_.Reopen()) {
-    SetBus(Bus::kDown, "is back");  // up as soon as a frame goes through
+    SetBus(BusState::kDown, "is back");  // up as soon as commands go out
   }
 }
 

@@ -11,6 +11,7 @@
 #include "daemon/event_log.hpp"
 #include "daemon/file_descriptor.hpp"
 #include "daemon/time.hpp"
+#include "daemon/transmitter.hpp"
 
 namespace lpvmpcd {
 
@@ -35,8 +36,8 @@ class Service {
   // system call failed. `loop` must outlive the service.
   Service(const ServiceSettings& settings, ControlLoop& loop);
 
-  // Until SIGTERM or SIGINT; then a last pair of commands, not enabled, is sent. An interface that goes down
-  // or away is waited for.
+  // Until SIGTERM or SIGINT; then a last pair of commands, not enabled, is sent. An interface that goes down or away
+  // is waited for.
   void Run();
 
  private:
@@ -46,9 +47,9 @@ class Service {
   void ReactToTimer();
   void RunCycle(Trigger trigger);
   void Send(std::span<const can::Frame> frames);
+  void SendLastWords();
   void Arm(Trigger last);
-  enum class Bus : std::uint8_t { kUp, kDown, kGone };  // from good to bad
-  void SetBus(Bus bus, const char* what);
+  void SetBus(BusState bus, const char* what);
   void Retry();
 
   ServiceSettings settings_;
@@ -60,9 +61,9 @@ class Service {
   FileDescriptor epoll_;
   EventLog log_;
   Notifier notifier_;
-  Bus bus_ = Bus::kUp;
-  int unsent_cycles_ = 0;  // in a row
-  std::uint64_t queue_full_ = 0;
+  Transmitter transmitter_;
+  BusState bus_ = BusState::kUp;
+  Time last_empty_{};  // when the receive queue was last seen empty
   std::int64_t cycles_ = 0;
 };
 

@@ -164,6 +164,39 @@ TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
   Engage();
 }
 
+TEST_F(DaemonVcan, StoppedForLongAndContinuedItCommandsNothing) {
+  StartDaemon();
+  Engage();
+  daemon_->Signal(SIGSTOP);
+  for (int i = 0; i < 3; ++i) {  // what the vehicle tells in the meantime waits in the daemon's queue
+    Put(vehicle_.All());
+    std::this_thread::sleep_for(1s);
+  }
+  Forget();
+  daemon_->Signal(SIGCONT);
+  while (const auto pair = NextPair(300ms)) {
+    EXPECT_FALSE(pair->steering.enable);
+    if (pair->steering.state_counter == 15) break;  // the timer's: the queue is empty
+  }
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_FALSE(Period().steering.enable);
+  }
+  EXPECT_TRUE(LogSays("mode Active -> Fault: no command sent for too long"));
+  Engage();
+}
+
+TEST_F(DaemonVcan, ReaderOfTheLogThatGoesAwayDoesNotEndTheDaemon) {
+  // `exec`, so that the process is the daemon itself; of its log only the first line is read.
+  const std::string command = "mkfifo log && { head -n 1 log & } && exec \"$0\" \"$@\" 2> log";
+  daemon_.emplace(std::vector<std::string>{"sh", "-c", "cd " + folder_.path().string() + " && " + command,
+                                           LPVMPCD, "--config", "daemon.toml", "--interface", interface_});
+  ASSERT_TRUE(test_support::WaitUntil([&] { return !daemon_->Stdout().empty(); }));
+  Engage();  // which it logs, twice
+  EXPECT_TRUE(Period().steering.enable);
+  daemon_->Signal(SIGTERM);
+  EXPECT_EQ(daemon_->Wait(5s), 0);
+}
+
 TEST_F(DaemonVcan, SigtermAndSigintSendALastPairThatIsNotEnabled) {
   for (const int signal : {SIGTERM, SIGINT}) {
     Forget();
