@@ -12,7 +12,8 @@ namespace config {
 [[nodiscard]] std::ifstream OpenTextFile(const std::filesystem::path& file);
 [[nodiscard]] std::string ReadTextFile(const std::filesystem::path& file);
 
-// `text` without control characters, cut after `longest` bytes: an error stays on one line whatever stands in the file.
+// `text` without control characters, cut after `longest` bytes: an error stays on one line whatever stands in the
+// file.
 [[nodiscard]] std::string Printable(std::string_view text, std::size_t longest = 80);
 // The name of a file as it begins an error: whole.
 [[nodiscard]] std::string PlaceName(const std::filesystem::path& file);

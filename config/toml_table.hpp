@@ -5,7 +5,7 @@
 //   const config::TomlTable mpc = file.Table("controller");
 //   const int horizon = mpc.IntegerOr("horizon", 8, {1, 200});
 //   const double left = file.Table("road").Number("left", {0.0, 100.0}, "m");
-//   file.RefuseUnknownKeys();  // a key that nobody asked for is an error, in `file` and in every table taken from it
+//   file.RefuseUnknownKeys();  // a key that nobody asked for is an error, here and in the tables taken from here
 #pragma once
 
 #include <filesystem>

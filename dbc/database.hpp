@@ -106,8 +106,8 @@ struct Database {
   std::map<std::string, AttributeDefinition, std::less<>> attribute_definitions;
   Attributes attributes;
   std::string comment;
-  std::vector<std::string>
-      warnings;  // "FILE:LINE:COLUMN: ...": oddities that real files have and that lose nothing
+  // "FILE:LINE:COLUMN: ...": oddities that real files have and that lose nothing.
+  std::vector<std::string> warnings;
 
   [[nodiscard]] const MessageDefinition* Find(std::string_view message_name) const;
   [[nodiscard]] const MessageDefinition* Find(std::uint32_t id, bool extended) const;

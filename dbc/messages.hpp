@@ -1,6 +1,6 @@
-// The messages of this project as physical values: SI units, radians. vehicle.dbc says where each of them
-// stands on the wire; the names of messages and signals there are the names of the structs and members here,
-// in CamelCase.
+// The messages of this project as physical values: SI units, radians. vehicle.dbc says where each of them stands
+// on the wire; the names of messages and signals there are the names of the structs and members here, in
+// CamelCase.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,8 @@
 
 namespace dbc {
 
-// ---- in: from the vehicle
-// ------------------------------------------------------------------------------------------ The three
-// messages of one state set carry the same counter. Order on the bus: pose, motion, feedback.
+// ---- in: from the vehicle ----
+// The three messages of one state set carry the same counter. Order on the bus: pose, motion, feedback.
 struct VehiclePose {
   double X = 0.0;  // centre of gravity in the map [m]
   double Y = 0.0;
@@ -57,8 +56,7 @@ struct DriverRequest {
   bool steering_override = false;  // driver steers: override
 };
 
-// ---- out: from the controller
-// --------------------------------------------------------------------------------------
+// ---- out: from the controller ----
 enum class Mode : std::uint8_t {
   kInit = 0,
   kStandby = 1,

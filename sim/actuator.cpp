@@ -20,6 +20,11 @@ void Actuator::Command(double value) {
   target_ = std::clamp(value, parameters_.min, parameters_.max);
 }
 
+void Actuator::Override(double value) {
+  target_ = std::clamp(value, parameters_.min, parameters_.max);
+  std::ranges::fill(delayed_, target_);
+}
+
 void Actuator::Advance(double dt) {
   const double tau = parameters_.time_constant;
   const double gap = std::abs(target_ - value_);

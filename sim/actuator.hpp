@@ -21,8 +21,10 @@ class Actuator {
  public:
   Actuator(const ActuatorParameters& parameters, double initial);
 
-  // Once a cycle.
+  // One of the two once a cycle. Command takes its delay; Override takes over at once, and the commands that are
+  // still on their way are lost.
   void Command(double value);
+  void Override(double value);
   // Exact for a constant command, whatever dt >= 0 [s] is.
   void Advance(double dt);
 

@@ -25,8 +25,7 @@ struct BusRunSettings {
   std::chrono::milliseconds answer_timeout{5'000};       // for the answer to a state set in lock step
 };
 
-// The kernel filters for what the vehicle wants to hear. Throws std::runtime_error if the bus lacks a
-// message.
+// The kernel filters for what the vehicle wants to hear. Throws std::runtime_error if the bus lacks a message.
 [[nodiscard]] std::vector<can::Filter> ControllerFilters(const dbc::VehicleBus& bus);
 
 class BusRun {
@@ -41,9 +40,8 @@ class BusRun {
   // Throws std::runtime_error: no controller, no answer in time, the interface is gone.
   [[nodiscard]] Summary Run();
 
-  [[nodiscard]] std::uint64_t late_cycles() const {
-    return late_cycles_;
-  }  // paced: begun more than a period late
+  // Paced: cycles begun more than a period late.
+  [[nodiscard]] std::uint64_t late_cycles() const { return late_cycles_; }
   [[nodiscard]] const VirtualVehicle& vehicle() const { return vehicle_; }
 
  private:

@@ -1,9 +1,8 @@
-// The person at the wheel, by a plan of times: engages the controller once it stands by, overrides or ends
-// it.
+// The person at the wheel, by a plan of times: engages the controller once it stands by, overrides or ends it.
 //
-// The controller engages on a rising edge of the request, and an edge that comes too early is spent. So the
-// driver waits until the controller has stood by for a moment, asks, and asks again when nothing came of it;
-// once driven and let go again, the driver keeps the wheel.
+// The controller engages on a rising edge of the request, and an edge that comes too early is spent. So the driver
+// waits until the controller has stood by for a moment, asks, and asks again when nothing came of it; once driven
+// and let go again, the driver keeps the wheel.
 #pragma once
 
 #include <optional>

@@ -8,8 +8,8 @@
 
 namespace sim {
 
-// Nearest-rank percentile: the smallest value of `sorted` that is not exceeded by a share of at least `share`, 0..1, of
-// them; so one that occurred. T{} if there are none.
+// Nearest-rank percentile: the smallest value of `sorted` above which lie no more than 1 - `share`, 0..1, of them.
+// T{} if there are none.
 template <typename T>
 [[nodiscard]] T Percentile(const std::vector<T>& sorted, double share) {
   if (sorted.empty()) return T{};

@@ -1,8 +1,8 @@
 // A vehicle with four wheels moving in the plane: x, y and yaw (dual track, three degrees of freedom).
 //
-// State z = [X Y υ ν ψ ω] as in control/types.hpp, input u = [δ a]: both front wheels are steered by δ, and m
-// a is the longitudinal force asked of the tyres, shared among the wheels by their load; a < 0 brakes and
-// never reverses.
+// State z = [X Y υ ν ψ ω] as in control/types.hpp, input u = [δ a]: both front wheels are steered by δ, and m a is
+// the longitudinal force asked of the tyres, shared among the wheels by their load; a < 0 brakes and never
+// reverses.
 //  - slip angle of a wheel: between its plane and the velocity of its own hub
 //  - linear tyres: F_y = C_α α, unlimited
 //  - saturating tyres: brush model (Fiala) with sqrt((μ F_z)² − F_x²) left for the side, F_x limited to μ F_z
@@ -49,8 +49,7 @@ class Plant {
  public:
   Plant(const PlantParameters& parameters, const control::State& initial);
 
-  // One step of the classical Runge-Kutta method of order 4, h > 0 [s]; the input at its start, middle and
-  // end.
+  // One step of the classical Runge-Kutta method of order 4, h > 0 [s]; the input at its start, middle and end.
   void Step(const control::Input& start, const control::Input& middle, const control::Input& end, double h);
 
   [[nodiscard]] const control::State& state() const { return state_; }  // ψ is not wrapped

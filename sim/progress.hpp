@@ -1,5 +1,4 @@
-// Tells on stderr how far a drive is: a line that is rewritten on a terminal, a line every five seconds
-// elsewhere.
+// Tells on stderr how far a drive is: a line that is rewritten on a terminal, a line every five seconds elsewhere.
 #pragma once
 
 #include <chrono>

@@ -32,9 +32,10 @@ constexpr double kStrongestAcceleration = 4.0;  // [m/s²]
 
 const std::array<std::string_view, 2> kByMap{"X", "Y"};
 
+// In the order of control::PassingSide.
 std::vector<std::string> SideNames() {
   return {"unknown", "left", "right"};
-}  // order of control::PassingSide
+}
 
 void PlaceInMap(const TomlTable& table, control::Obstacle& obstacle) {
   if (table.Has("lateral")) throw table.Error("lateral", "must not be given without s");

@@ -1,10 +1,10 @@
-// One simulated drive: the road, the vehicle and how it differs from the controller's model, the obstacles,
-// the driver, and the expectations that decide whether the drive passed. A TOML file; only `name` and `route`
-// are required.
+// One simulated drive: the road, the vehicle and how it differs from the controller's model, the obstacles, the
+// driver, and the expectations that decide whether the drive passed. A TOML file; only `name` and `route` are
+// required, and of an obstacle `id`, `r_x`, `r_y` and a place: X and Y, or s.
 //
 //   name = "demo"                     # one line
 //   description = "..."
-//   seed = 1                          # of the sensors' noise
+//   seed = 1                          # of the sensors' noise, 0..2147483647
 //   duration = 60.0                   # [s]; without it the drive goes on to the end of the route
 //   route = "route.toml"              # config/route_file.hpp; paths are relative to this file
 //   daemon_config = "lpvmpcd.toml"    # for the tools that start the daemon
@@ -13,18 +13,23 @@
 //   lateral = 0.0                     # left positive [m]
 //   heading = 0.0                     # [rad]
 //   speed = 12.0                      # default: the route's target speed there [m/s]
-//   [[obstacle]]
+//   [[obstacle]]                      # at most 15
 //   id = 1                            # 0..15, each once
 //   X = 100.0                         # centre in the map [m], inside the map's bounds below
 //   Y = 20.0
-//   s = 100.0                         # or: along the route [m]
-//   lateral = -0.3                    # and beside it, left positive [m]
 //   r_x = 1.0                         # semi-axis along the heading [m]
 //   r_y = 1.0
-//   heading = 0.0                     # in the map, or with `s` relative to the route [rad]
+//   heading = 0.0                     # in the map [rad]
 //   velocity_X = 0.0                  # in the map [m/s]
 //   velocity_Y = 0.0
 //   side = "left"                     # on which it is to be passed: left, right, unknown
+//   [[obstacle]]
+//   id = 2
+//   s = 100.0                         # instead of X and Y: centre along the route [m]
+//   lateral = -0.3                    # and beside it, left positive [m]
+//   heading = 0.0                     # then relative to the route [rad]
+//   r_x = 1.0
+//   r_y = 0.5
 //   [vehicle]                         # deviations from control/vehicle_parameters.hpp
 //   mass_factor = 1.0                 # of mass and yaw inertia
 //   front_stiffness_factor = 1.0
@@ -46,8 +51,11 @@
 //   disengage_at = 30.0               # never, where the key is missing
 //   brake_at = 30.0
 //   steering_override_at = 30.0
-//   [expect]                          # see sim/summary.hpp; what is missing is not judged, but for
-//   `completed` completed = true max_infeasible_steps = 0 min_clearance_m = 0.0 min_road_margin_m = 0.0
+//   [expect]                          # of sim/summary.hpp; what is missing is not judged, but for `completed`
+//   completed = true
+//   max_infeasible_steps = 0
+//   min_clearance_m = 0.0
+//   min_road_margin_m = 0.0
 //   max_rms_lateral_error_m = 0.5
 //   max_deadline_misses = 0
 #pragma once

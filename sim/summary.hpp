@@ -16,10 +16,10 @@ struct Summary {
   bool completed = false;    // driven by the controller to the end of the route or of the scenario's duration
   std::int64_t steps = 0;    // cycles from engagement on
   int infeasible_steps = 0;  // of those, cycles in mode Active whose solver status was not Solved
-  std::optional<double>
-      min_clearance_m;  // signed distance of the centre of gravity to the nearest obstacle's edge
-  std::optional<double>
-      min_road_margin_m;  // of the centre of gravity to the nearer road edge, negative off the road
+  // Signed distance of the centre of gravity to the nearest obstacle's edge, negative inside.
+  std::optional<double> min_clearance_m;
+  // Of the centre of gravity to the nearer road edge, negative off the road.
+  std::optional<double> min_road_margin_m;
   std::optional<double> rms_lateral_error_m;  // distance to the reference path
   int solve_time_median_us = 0;               // of the whole control step, as the controller told it
   int solve_time_p99_us = 0;

@@ -115,13 +115,19 @@ void VirtualVehicle::Receive(const can::Frame& frame) {
   }
 }
 
+void VirtualVehicle::Apply(const Channel& channel, double by_driver, Actuator& actuator) {
+  if (channel.Obeyed()) {
+    actuator.Command(channel.value);
+  } else {
+    actuator.Override(by_driver);
+  }
+}
+
 void VirtualVehicle::Advance() {
   if (obeyed_ && (steering_.age > 0 || acceleration_.age > 0)) ++missed_commands_;
   obeyed_ = obeyed_ || (steering_.Obeyed() && acceleration_.Obeyed());
-  steering_actuator_.Command(steering_.Obeyed() ? steering_.value : steering_actuator_.value());
-  acceleration_actuator_.Command(acceleration_.Obeyed() ? acceleration_.value
-                                 : obeyed_              ? kDriverDeceleration
-                                                        : 0.0);
+  Apply(steering_, steering_actuator_.value(), steering_actuator_);
+  Apply(acceleration_, obeyed_ ? kDriverDeceleration : 0.0, acceleration_actuator_);
 
   const auto steps = std::lround(kCycleTime / kIntegrationStep);
   for (long i = 0; i < steps; ++i) {

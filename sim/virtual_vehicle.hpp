@@ -8,9 +8,9 @@
 //     vehicle.Advance();
 //   }
 //
-// A command is obeyed while its message says Enable and it was renewed within the last kCommandLifetime
-// cycles. Else the driver holds the wheel where it is; the pedals are left alone before the controller was
-// first obeyed, and after that the driver brakes gently to a stop.
+// A command is obeyed while its message says Enable and it was renewed within the last kCommandLifetime cycles.
+// Else the driver holds the wheel where it is, at once, whatever command is still on its way to the actuators; the
+// pedals are left alone before the controller was first obeyed, and after that the driver brakes gently to a stop.
 #pragma once
 
 #include <cstdint>
@@ -52,10 +52,10 @@ class VirtualVehicle {
   // Applies the commands for one cycle.
   void Advance();
 
-  [[nodiscard]] double time() const {
-    return static_cast<double>(cycle_) * kCycleTime;
-  }                                                                             // since the start [s]
-  [[nodiscard]] const control::State& state() const { return plant_.state(); }  // the truth
+  // Since the start [s].
+  [[nodiscard]] double time() const { return static_cast<double>(cycle_) * kCycleTime; }
+  // The truth.
+  [[nodiscard]] const control::State& state() const { return plant_.state(); }
   [[nodiscard]] control::Input actuators() const {
     return {steering_actuator_.value(), acceleration_actuator_.value()};
   }
@@ -66,12 +66,10 @@ class VirtualVehicle {
   [[nodiscard]] const dbc::ControllerStatus& status() const { return status_; }
   [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // came since the last Advance()
   [[nodiscard]] bool heard() const { return heard_; }                  // any status came at all
-  [[nodiscard]] std::uint64_t rejected_frames() const {
-    return rejected_frames_;
-  }  // wrong CRC, length or counter
-  [[nodiscard]] std::uint64_t missed_commands() const {
-    return missed_commands_;
-  }  // cycles without one, once obeyed
+  // Frames with a wrong CRC or length, or the invalid counter.
+  [[nodiscard]] std::uint64_t rejected_frames() const { return rejected_frames_; }
+  // Cycles without a command, once one was obeyed.
+  [[nodiscard]] std::uint64_t missed_commands() const { return missed_commands_; }
 
  private:
   // The last command of one of both messages.
@@ -89,6 +87,7 @@ class VirtualVehicle {
   [[nodiscard]] std::uint8_t StateCounter() const;
   template <typename Command>
   void Take(const Command& command, double value, Channel& channel) const;
+  static void Apply(const Channel& channel, double by_driver, Actuator& actuator);
 
   const dbc::VehicleBus* bus_;
   Plant plant_;

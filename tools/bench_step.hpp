@@ -15,8 +15,8 @@ struct BenchStepOptions {
   bool json = false;
 };
 
-// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon. Throws one line at bad
-// input, before anything is written.
+// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon. Throws one line
+// at bad input, before anything is written.
 void BenchStep(const BenchStepOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -94,8 +94,8 @@ class Decoder {
   }
 
   dbc::VehicleBus bus_;
-  std::map<std::pair<std::string, std::uint32_t>, std::uint8_t>
-      counters_;  // of the last frame with a good CRC
+  // Of the last frame with a good CRC of each interface and id.
+  std::map<std::pair<std::string, std::uint32_t>, std::uint8_t> counters_;
 };
 
 }  // namespace

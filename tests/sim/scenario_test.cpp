@@ -6,6 +6,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/sim/scenario_files.hpp"
+#include "tests/support/header_example.hpp"
 
 namespace sim {
 namespace {
@@ -36,6 +37,15 @@ TEST_F(ScenarioTest, StartsOnTheRouteAtItsSpeedByDefault) {
   EXPECT_TRUE(scenario.obstacles.empty());
   EXPECT_FALSE(scenario.duration);
   EXPECT_TRUE(scenario.expect.completed);
+}
+
+TEST_F(ScenarioTest, ExampleOfTheHeaderIsAScenario) {
+  const std::string example = test_support::ExampleOf("sim/scenario.hpp");
+  files_.Write("example.toml", example);
+  const Scenario scenario = LoadScenario(files_.folder() / "example.toml");
+  EXPECT_EQ(scenario.obstacles.size(), 2u);
+  EXPECT_EQ(scenario.expect.max_deadline_misses, 0);
+  EXPECT_EQ(scenario.expect.max_rms_lateral_error_m, 0.5);
 }
 
 TEST_F(ScenarioTest, StartInACurveIsSteadyCornering) {

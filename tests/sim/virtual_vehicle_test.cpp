@@ -125,6 +125,22 @@ TEST_F(VirtualVehicleTest, DriverTakesOverAfterDisablingAndBrakesToAStop) {
   EXPECT_NEAR(vehicle.state()[control::kUpsilon], 0.0, 1e-6);
 }
 
+TEST_F(VirtualVehicleTest, DriverTakesOverAtOnceThoughCommandsTakeTheirTime) {
+  const Scenario scenario =
+      files_.Load("[initial]\nlateral = 1.0\n[vehicle]\ndelay_cycles = 4\n[driver]\ndisengage_at = 2.0\n");
+  VirtualVehicle vehicle(scenario, bus_);
+  FakeController controller(bus_, scenario.route);
+  while (vehicle.time() < 2.0) Cycle(vehicle, controller);
+  ASSERT_EQ(vehicle.mode(), dbc::Mode::kActive);
+  const double held = vehicle.actuators()[control::kDelta];
+  ASSERT_NE(held, 0.0);
+  for (int i = 0; i < 30; ++i) {
+    Cycle(vehicle, controller);
+    EXPECT_EQ(vehicle.actuators()[control::kDelta], held) << "cycle " << i;
+    EXPECT_EQ(vehicle.actuators()[control::kAcceleration], kDriverDeceleration) << "cycle " << i;
+  }
+}
+
 TEST_F(VirtualVehicleTest, CommandThatIsNotRenewedIsObeyedForItsLifetimeOnly) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
   const FakeController controller(bus_, files_.Load("").route);
