@@ -1,6 +1,7 @@
 #include "dbc/vehicle_bus.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <type_traits>
@@ -92,6 +93,7 @@ struct VehicleBus::Binding {
   explicit Binding(Database given) : database(std::move(given)) {
     try {
       BindAll(std::make_index_sequence<kTypes>());
+      for (const BoundType& type : types) CheckOverlap(type);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(database.source + ": " + error.what());
     }
@@ -175,6 +177,25 @@ struct VehicleBus::Binding {
       throw std::runtime_error("signal CRC of message " + message.name + " is not byte 0");
     if (bound.counter->length != 4) {
       throw std::runtime_error("signal Counter of message " + message.name + " has not 4 bits");
+    }
+  }
+
+  // No two signals that are written into one frame share a bit.
+  void CheckOverlap(const BoundType& type) const {
+    const BoundMessage& message = messages[type.message];
+    std::vector<const Signal*> signals{message.crc, message.counter};
+    if (type.multiplexor != nullptr) signals.push_back(type.multiplexor);
+    signals.insert(signals.end(), type.signals.begin(), type.signals.end());
+    std::uint64_t taken = 0;
+    for (const Signal* signal : signals) {
+      std::array<std::byte, 8> payload{};
+      WriteRaw(*signal, ~std::uint64_t{0}, payload);
+      const auto mask = std::bit_cast<std::uint64_t>(payload);
+      if ((taken & mask) != 0) {
+        throw std::runtime_error("signal " + signal->name + " of message " + info[type.message].name +
+                                 " overlaps another one");
+      }
+      taken |= mask;
     }
   }
 

@@ -57,7 +57,8 @@ class VehicleBus {
  public:
   VehicleBus();  // the built-in vehicle.dbc
   // Any DBC with the same names. Throws std::runtime_error that names the message, signal or attribute that
-  // `database` lacks or that cannot carry ours (an extended id, more than 8 bytes, a CRC that is not byte 0).
+  // `database` lacks or that cannot carry ours (an extended id, more than 8 bytes, a CRC that is not byte 0, signals
+  // of one frame that overlap).
   explicit VehicleBus(Database database);
   ~VehicleBus();
   VehicleBus(VehicleBus&&) noexcept;

@@ -282,4 +282,13 @@ TEST(VehicleBus, ForeignDbcThatLacksSomethingIsRefusedByName) {
   EXPECT_THAT(ErrorOf(Replaced("SG_ VelocityX m2", "SG_ VelocityX m1")), HasSubstr("VelocityY"));
 }
 
+TEST(VehicleBus, ForeignDbcWhoseSignalsOverlapIsRefusedByName) {
+  EXPECT_THAT(ErrorOf(Replaced("SG_ Delta : 26|", "SG_ Delta : 25|")),
+              HasSubstr("signal Delta of message SteeringCommand overlaps"));
+  EXPECT_THAT(ErrorOf(Replaced("SG_ StateCounter : 12|4@1+", "SG_ StateCounter : 11|4@1+")),
+              HasSubstr("signal StateCounter of message SteeringCommand overlaps"));  // the counter
+  EXPECT_THAT(ErrorOf(Replaced("SG_ VelocityX m2 : 18|", "SG_ VelocityX m2 : 13|")),
+              HasSubstr("signal VelocityX of message ObstacleObject overlaps"));  // the multiplexor
+}
+
 }  // namespace
