@@ -1,0 +1,159 @@
+// The Newton system of OcpQpSolver and its solution: definitions of the solver's Factorise and Step.
+//
+// Each bound is an equation with a distance t ≥ 0 and a multiplier λ ≥ 0,
+//   C x + D u + ε − lo = t_lo,   hi + ε − C x − D u = t_hi,   λ t = σμ.
+// Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a curvature on C dx + D du,
+//   w = w_lo + w_hi − (w_lo − w_hi)² / (ρ + w_lo + w_hi),   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi likewise
+// (the last term in soft rows only),
+// and a gradient term. δ regularises the step alone, dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤
+// 1/δ and so the digits of P, and vanishes with dλ. What remains is
+//   min ½ dxᵀ(Q + Σ w CCᵀ)dx + duᵀ(Σ w DCᵀ)dx + ½ duᵀ(R + Σ w DDᵀ)du + g_xᵀdx + g_uᵀdu,  dx' = A dx + B du,
+// which the Riccati recursion solves. It is written with the closed loop A_K = A + B K and C_K = C + KᵀD, as
+// a sum of positive semidefinite terms: the usual difference of large terms loses all digits where w → ∞ in a
+// row with D ≠ 0.
+//   P = Q + KᵀRK + A_Kᵀ P' A_K + Σ w C_K C_Kᵀ,   K = −H_uu⁻¹ H_ux,
+//   H_uu = R + BᵀP'B + Σ w DDᵀ,                  H_ux = BᵀP'A + Σ w DCᵀ,
+//   p = r_x + Kᵀ r_u + A_Kᵀ p' + Σ γ C_K,        k = −H_uu⁻¹ h_u,    h_u = r_u + Bᵀp' + Σ γ D
+// with the gradient γ of each row; r_x, r_u are the gradients of the Lagrangian at the iterate.
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "control/ocp_qp_rows.hpp"
+#include "control/ocp_qp_solver.hpp"
+
+namespace control {
+
+// Row weights and the matrices of the Riccati recursion. False if a pivot is not positive.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
+  for (std::size_t i = work_.size(); i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    const bool terminal = i + 1 == work_.size();
+    const std::size_t row_count = with_rows ? static_cast<std::size_t>(stage.row_count) : 0;
+    for (std::size_t j = 0; j < row_count; ++j) {
+      RowWork& at = work.rows[j];
+      const auto side = [](Side& s) {
+        if (!s.present) return;
+        s.inverse_t = 1.0 / (s.t + kDualRegularisation * s.lambda);
+        s.w = s.lambda * s.inverse_t;
+      };
+      side(at.lo);
+      side(at.hi);
+      at.w = at.lo.w + at.hi.w;
+      const double s = stage.rows[j].rho + at.w;
+      at.inverse_s = stage.rows[j].soft() && s > 0.0 ? 1.0 / s : 0.0;
+      at.w -= (at.lo.w - at.hi.w) * (at.lo.w - at.hi.w) * at.inverse_s;
+    }
+
+    MatrixXX& P = work.P;
+    if (terminal) {
+      P = stage.Q.asDiagonal();
+    } else {
+      const MatrixXX& P_next = work_[i + 1].P;
+      const MatrixXX PA = P_next * stage.A;
+      const MatrixXU PB = P_next * stage.B;
+      MatrixUU H_uu = stage.R.asDiagonal();
+      H_uu.noalias() += stage.B.transpose() * PB;
+      MatrixUX H_ux = stage.B.transpose() * PA;
+      for (std::size_t j = 0; j < row_count; ++j) {
+        const auto& row = stage.rows[j];
+        if (row.unit >= kNx) {
+          H_uu(row.unit - kNx, row.unit - kNx) += work.rows[j].w;
+        } else if (row.unit < 0) {
+          const VectorU wD = work.rows[j].w * row.D;
+          H_ux.noalias() += wD * row.C.transpose();
+          H_uu.noalias() += wD * row.D.transpose();
+        }
+      }
+      const Eigen::LLT<MatrixUU> llt(H_uu);
+      if (llt.info() != Eigen::Success) return false;
+      work.H_uu_inverse = llt.solve(MatrixUU::Identity());
+      work.K.noalias() = -work.H_uu_inverse * H_ux;
+      work.A_K = stage.A;
+      work.A_K.noalias() += stage.B * work.K;
+      const MatrixXX PA_K = PA + PB * work.K;
+      P.noalias() = work.A_K.transpose() * PA_K;
+      P.noalias() += work.K.transpose() * (stage.R.asDiagonal() * work.K);
+      P = (0.5 * (P + P.transpose())).eval();
+      P.diagonal() += stage.Q;
+    }
+    for (std::size_t j = 0; j < row_count; ++j) {
+      const auto& row = stage.rows[j];
+      RowWork& at = work.rows[j];
+      if (row.unit >= 0 && row.unit < kNx) {
+        P(row.unit, row.unit) += at.w;
+        continue;
+      }
+      at.C_K = row.C;
+      if (!terminal) at.C_K.noalias() += work.K.transpose() * row.D;
+      const VectorX wC_K = at.w * at.C_K;
+      P.noalias() += wC_K * at.C_K.transpose();
+    }
+  }
+  return true;
+}
+
+// The Newton step towards λ t = target, with Mehrotra's second-order term of the step before it if asked for.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order) {
+  const std::size_t N = work_.size() - 1;
+  for (std::size_t i = N + 1; i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    auto& work = work_[i];
+    VectorU h_u = work.r_u;
+    work.p = work.r_x;
+    if (i < N) {
+      const VectorX& p_next = work_[i + 1].p;
+      h_u.noalias() += stage.B.transpose() * p_next;
+      work.p.noalias() += work.A_K.transpose() * p_next;
+      work.p.noalias() += work.K.transpose() * work.r_u;
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      RowWork& at = work.rows[j];
+      const auto side = [&](Side& s) {
+        if (!s.present) return;
+        const double cross = second_order ? s.dt * s.dlambda : 0.0;
+        s.y = (target - cross - s.lambda * s.t) * s.inverse_t - s.w * s.residual;
+      };
+      side(at.lo);
+      side(at.hi);
+      const double gradient =
+          at.hi.y - at.lo.y + (at.lo.w - at.hi.w) * (at.lo.y + at.hi.y - at.r_epsilon) * at.inverse_s;
+      if (row.unit >= 0 && row.unit < kNx) {
+        work.p[row.unit] += gradient;
+      } else {
+        work.p += gradient * at.C_K;
+        h_u += gradient * row.D;
+      }
+    }
+    if (i < N) work.k.noalias() = -work.H_uu_inverse * h_u;
+  }
+  work_[0].dx.setZero();
+  work_[0].dpi.setZero();
+  work_[N].du.setZero();
+  for (std::size_t i = 0; i < N; ++i) {
+    auto& work = work_[i];
+    auto& next = work_[i + 1];
+    work.du = work.k;
+    work.du.noalias() += work.K * work.dx;
+    next.dx.noalias() = qp.stages[i].A * work.dx;
+    next.dx.noalias() += qp.stages[i].B * work.du;
+    next.dpi = next.p;
+    next.dpi.noalias() += next.P * next.dx;
+  }
+  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& at, const StageWork& stage) {
+    const double dg = detail::RowValue(row, stage.dx, stage.du);
+    at.depsilon = (at.lo.y + at.hi.y - at.r_epsilon - (at.lo.w - at.hi.w) * dg) * at.inverse_s;
+    const auto side = [](Side& s, double distance_step) {
+      s.dlambda = s.y - s.w * distance_step;
+      s.dt = distance_step + s.residual + kDualRegularisation * s.dlambda;
+    };
+    side(at.lo, dg + at.depsilon);
+    side(at.hi, -dg + at.depsilon);
+  });
+}
+
+}  // namespace control
