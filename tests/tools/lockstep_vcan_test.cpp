@@ -122,4 +122,15 @@ TEST_F(LockstepOnVcan, CanplayerPlaysTheLogAgain) {
       << Lines(replay) - before << " of " << Lines(log) << " frames";
 }
 
+TEST(DriveOnVcan, DaemonThatDidNotStartIsQuotedAndNoSummaryLeft) {
+  const test_support::TempDir results;
+  const test_support::Outcome drive =
+      test_support::Run({"env", std::string("LPVMPC_BIN=") + LPVMPC_BIN_DIR, kRepository + "/scripts/drive",
+                         kScenario, "/nowhere.toml", results.path().string()},
+                        60s);
+  EXPECT_NE(drive.status, 0);
+  EXPECT_NE(drive.err.find("/nowhere.toml: cannot be read"), std::string::npos) << drive.err;
+  EXPECT_FALSE(std::filesystem::exists(results / "summary.json"));
+}
+
 }  // namespace
