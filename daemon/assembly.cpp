@@ -1,11 +1,10 @@
 #include "daemon/assembly.hpp"
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "config/route_file.hpp"
+#include "config/text_file.hpp"
 #include "dbc/parser.hpp"
 
 namespace lpvmpcd {
@@ -15,19 +14,7 @@ dbc::VehicleBus OpenBus(const std::filesystem::path& file) {
   if (file.empty()) {
     return {};
   }
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) {
-    throw std::runtime_error(file.string() + ": cannot be read");
-  }
-  try {
-    return dbc::VehicleBus(dbc::Parse(text.str(), file.string()));
-  } catch (const dbc::DbcError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(file.string() + ": " + error.what());
-  }
+  return dbc::VehicleBus(dbc::Parse(config::ReadTextFile(file), file.string()));
 }
 
 }  // namespace

@@ -89,9 +89,11 @@ void ReadModes(const TomlTable& engage, const TomlTable& stop, LoopSettings& loo
       engage.NumberOr("max_heading_error", loop.engage_max_heading_error, {0.0, 3.15}, "rad");
   loop.stop_deceleration = stop.NumberOr("deceleration", loop.stop_deceleration, {0.1, 10.0}, "m/s^2");
   if (loop.stop_deceleration > -loop.limits.min_acceleration) {
+    const std::string unless =
+        stop.Has("deceleration") ? "" : fmt::format(" ({} unless given)", loop.stop_deceleration);
     throw stop.Error("deceleration",
-                     fmt::format("must not be above {}, which limits.min_acceleration allows, but is {}",
-                                 -loop.limits.min_acceleration, loop.stop_deceleration));
+                     fmt::format("must not be above {}, the strongest brake of limits.min_acceleration{}",
+                                 -loop.limits.min_acceleration, unless));
   }
   loop.standstill_speed = stop.NumberOr("standstill_speed", loop.standstill_speed, {0.01, 5.0}, "m/s");
 }

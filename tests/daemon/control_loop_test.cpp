@@ -32,6 +32,7 @@ class FakeController : public control::Controller {
     reference_size = input.reference.size();
     plan_.status = status;
     plan_.iterations = 7;
+    plan_.u[3][control::kDelta] = poison_input ? std::numeric_limits<double>::quiet_NaN() : 0.04;
     plan_.z[2][control::kX] = poison ? std::numeric_limits<double>::quiet_NaN() : 12.5;
     return plan_;
   }
@@ -39,6 +40,7 @@ class FakeController : public control::Controller {
 
   control::SolverStatus status = control::SolverStatus::kSolved;
   bool poison = false;
+  bool poison_input = false;  // the last one
   int steps = 0;
   int resets = 0;
   control::State z;
@@ -330,6 +332,10 @@ TEST_F(ControlLoopTest, PlanWithANanIsRefused) {
   EXPECT_EQ(sent.steering.plan_age, 1);
   EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverNumericalFailure);
   EXPECT_EQ(loop_.report().solver_failures, 1U);
+  controller_.poison = false;
+  controller_.poison_input = true;
+  EXPECT_EQ(Period().steering.plan_age, 2);
+  EXPECT_EQ(loop_.report().solver_failures, 2U);
 }
 
 TEST_F(ControlLoopTest, WithoutAFirstPlanItDoesNotEngage) {
@@ -338,6 +344,17 @@ TEST_F(ControlLoopTest, WithoutAFirstPlanItDoesNotEngage) {
   EXPECT_EQ(sent.steering.mode, Mode::kStandby);
   EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverInfeasible);
   EXPECT_TRUE(loop_.report().engagement_refused);
+}
+
+TEST_F(ControlLoopTest, PlanOfAnEarlierDriveDoesNotEngage) {
+  Engage();
+  vehicle_.request.brake = true;
+  EXPECT_EQ(Period().steering.plan_age, 0);
+  vehicle_.request = {};
+  EXPECT_EQ(Period().steering.plan_age, 63);
+  vehicle_.request.engage = true;
+  controller_.status = control::SolverStatus::kInfeasible;
+  EXPECT_FALSE(Period().steering.enable);  // though the old plan is not yet used up
 }
 
 TEST_F(ControlLoopTest, MissingStateIsBridgedByThePlanAndThenStopsTheVehicle) {
