@@ -282,6 +282,24 @@ TEST_F(ControlLoopTest, TouchOfTheBrakeBetweenTwoCyclesIsNotLost) {
   EXPECT_EQ(Period().steering.mode, Mode::kStandby);
 }
 
+TEST_F(ControlLoopTest, ReleaseOfTheSwitchBetweenTwoCyclesIsNotLost) {
+  Engage();
+  vehicle_.request.engage = false;
+  Give(vehicle_.Request());
+  vehicle_.request.engage = true;
+  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+}
+
+TEST_F(ControlLoopTest, StandstillThatIsNoLongerFreshEndsNoStop) {
+  Engage();
+  vehicle_.motion.upsilon = 0.1;
+  Period();
+  for (int i = 0; i < 10; ++i) {
+    TimerPeriod();
+  }
+  EXPECT_EQ(loop_.report().mode, Mode::kSafeStop);
+}
+
 TEST_F(ControlLoopTest, WithdrawnRequestEndsActive) {
   Engage();
   vehicle_.request.engage = false;
