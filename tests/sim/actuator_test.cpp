@@ -34,6 +34,19 @@ TEST(Actuator, RateAndLagTogetherAreExactWhateverTheStep) {
   EXPECT_NEAR(often.value(), once.value(), 1e-12);
 }
 
+TEST(Actuator, OverrideActsAtOnceAndDropsTheCommandsOnTheirWay) {
+  Actuator actuator({.delay_cycles = 2}, 0.0);
+  actuator.Command(5.0);
+  actuator.Override(1.0);
+  actuator.Advance(1e-3);
+  EXPECT_EQ(actuator.value(), 1.0);
+  for (const double expected : {1.0, 1.0, 3.0}) {
+    actuator.Command(3.0);
+    actuator.Advance(1e-3);
+    EXPECT_EQ(actuator.value(), expected);
+  }
+}
+
 TEST(Actuator, RateIsNeverExceeded) {
   Actuator actuator({.time_constant = 0.02, .rate = 0.5}, 0.0);
   double before = 0.0;
