@@ -1,5 +1,6 @@
 // lpvmpcd: steers a vehicle along a route, over CAN.
 #include <iostream>
+#include <stdexcept>
 
 #include <CLI/CLI.hpp>
 
@@ -24,7 +25,7 @@ int main(int argc, char** argv) {
   CLI::App app("lpvmpcd: steers a vehicle along a route, over CAN");
   std::string file, interface, controller;
   bool check = false, lockstep = false;
-  app.add_option("--config", file, "configuration in TOML")->required();
+  app.add_option("--config", file, "configuration in TOML; required");
   app.add_option("--interface", interface, "CAN interface, instead of the configuration's");
   app.add_option("--controller", controller, "lpv or lpv-standard, instead of the configuration's");
   app.add_flag("--lockstep", lockstep, "time by the vehicle's counter, as lpvmpc-sim --lockstep wants it");
@@ -35,6 +36,8 @@ int main(int argc, char** argv) {
   std::optional<lpvmpcd::Assembly> assembly;
   try {
     app.parse(argc, argv);
+    // Not CLI11's own check, which would hide an unknown option.
+    if (file.empty()) throw std::runtime_error("--config is required");
     config = lpvmpcd::LoadConfig(file);
     if (!interface.empty()) config->service.interface = interface;
     if (!controller.empty()) lpvmpcd::SelectController(*config, controller);
@@ -49,8 +52,8 @@ int main(int argc, char** argv) {
     std::cout << "interface " << config->service.interface << ", controller "
               << lpvmpcd::ControllerName(*config) << ", horizon " << config->mpc.horizon << ", period "
               << config->mpc.t_s << " s, route " << config->route.string() << " with "
-              << assembly->reference().size() << " points\n";
-    return 0;
+              << assembly->reference().size() << " points" << std::endl;
+    return std::cout ? 0 : Fail(std::runtime_error("cannot write to stdout"), kRunTimeError);
   }
   try {
     lpvmpcd::OpenLog(config->log_level);

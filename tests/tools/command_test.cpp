@@ -141,6 +141,15 @@ TEST(LpvmpcSim, MissingScenarioIsNamed) {
                 HasSubstr("/nowhere/s.toml"));
 }
 
+TEST(Lpvmpcd, UnknownOptionIsNamed) {
+  ExpectOneLine({LPVMPCD, "--confg", "x"}, HasSubstr("--confg"));
+}
+
+TEST(Lpvmpcd, MissingConfigurationIsNamed) {
+  ExpectOneLine({LPVMPCD}, HasSubstr("--config is required"));
+  ExpectOneLine({LPVMPCD, "--config", "/nowhere/c.toml"}, HasSubstr("/nowhere/c.toml"));
+}
+
 TEST(Lpvmpcd, CheckConfigNamesTheFileAndTheLineOfAWrongValue) {
   const test_support::TempDir folder;
   const std::string file = Write(folder, "c.toml",
