@@ -5,38 +5,21 @@
 // would cost, and the input last applied makes the rate limits rows of a stage.
 #pragma once
 
-#include <numbers>
-
 #include "control/controller.hpp"
 #include "control/lpv_model.hpp"
+#include "control/mpc_settings.hpp"
 #include "control/ocp_qp_solver.hpp"
 #include "control/vehicle_parameters.hpp"
 
 namespace control {
 
-// Defaults: the paper's tables and text; the trust region, which it leaves open, as tried.
-struct LpvMpcSettings {
-  int horizon = 8;    // N
-  double t_s = 0.05;  // [s]
+// The trust region, whose size the paper leaves open, is as tried.
+struct LpvMpcSettings : MpcSettings {
   Discretisation discretisation = Discretisation::kEuler;
-
-  // Weights of z − z_ref in the order of z, and of u.
-  State Q{10.0, 10.0, 1.0, 1.0, 10.0, 1.0};
-  State P{10.0, 10.0, 1.0, 1.0, 10.0, 1.0};
-  Input R{0.1, 0.1};
-
-  // Bounds (tab:MPCPar); that on ψ is taken relative to the reference.
-  State z_min{-1.0, -600.0, 1.0, -10.0, -std::numbers::pi, -std::numbers::pi / (3.0 * 0.05)};
-  State z_max{1500.0, 800.0, 100.0, 10.0, std::numbers::pi, std::numbers::pi / (3.0 * 0.05)};
-  Input u_min{-34.0 * std::numbers::pi / 180.0, -6.0};
-  Input u_max{34.0 * std::numbers::pi / 180.0, 2.0};
-  Input rate_max{25.0 * std::numbers::pi / 180.0, 1.5};  // per step
 
   bool trust_region = true;
   Eigen::Vector4d trust_radius{0.5, 0.3, 0.05, 0.05};  // e_max of υ [m/s], ν [m/s], ψ [rad], δ [rad]
   Eigen::Vector4d E_p{1e3, 1e3, 1e3, 1e3};             // weights of their slacks
-
-  double obstacle_margin = 0.1;  // [m] by which obstacles are enlarged
 
   QpSettings qp{};
 };

@@ -1,7 +1,6 @@
 #include "control/reference.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -49,19 +48,6 @@ void Reference::Window(int k, std::span<State> out) const {
       out[i][kY] += distance * std::sin(out[i][kPsi]);
     }
   }
-}
-
-int Reference::Nearest(double X, double Y, int from) const {
-  int nearest = std::max(from, 0);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int k = nearest; k < size(); ++k) {
-    const double distance = std::hypot((*this)[k][kX] - X, (*this)[k][kY] - Y);
-    if (distance < smallest) {
-      smallest = distance;
-      nearest = k;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace control

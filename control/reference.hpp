@@ -28,9 +28,6 @@ class Reference {
   // z_ref of steps k, k+1, ... into `out`. Past the end the last state is carried on straight at its speed.
   void Window(int k, std::span<State> out) const;
 
-  // Index of the point nearest to (X, Y); from `from` on if it is not negative.
-  [[nodiscard]] int Nearest(double X, double Y, int from = -1) const;
-
  private:
   std::vector<State> z_;
   double t_s_;

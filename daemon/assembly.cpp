@@ -5,6 +5,7 @@
 
 #include "config/route_file.hpp"
 #include "config/text_file.hpp"
+#include "control/lpv_mpc.hpp"
 #include "dbc/parser.hpp"
 
 namespace lpvmpcd {
@@ -17,17 +18,31 @@ dbc::VehicleBus OpenBus(const std::filesystem::path& file) {
   return dbc::VehicleBus(dbc::Parse(config::ReadTextFile(file), file.string()));
 }
 
+std::unique_ptr<control::Controller> MakeController(const Config& config) {
+  if (config.controller == ControllerKind::kNmpc) {
+    // Ipopt allocates and has no bound on its time.
+    throw std::runtime_error(
+        "controller nmpc is for lpvmpc alone: no daemon drives by it; take lpv or lpv-standard");
+  }
+  return std::make_unique<control::LpvMpc>(config.vehicle, config.mpc);
+}
+
 }  // namespace
 
 Assembly::Assembly(const Config& config, std::function<Time()> stopwatch)
-    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch)) {}
+    : Assembly(config, std::move(stopwatch), MakeController(config)) {}
 
-Assembly::Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch)
+Assembly::Assembly(const Config& config, std::function<Time()> stopwatch,
+                   std::unique_ptr<control::Controller> controller)
+    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), std::move(controller)) {}
+
+Assembly::Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch,
+                   std::unique_ptr<control::Controller> controller)
     : bus_(OpenBus(config.dbc)),
       reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
       road_(route.road),
-      controller_(config.vehicle, config.mpc),
-      loop_(config.loop, bus_, controller_, reference_, road_, std::move(stopwatch)) {
+      controller_(std::move(controller)),
+      loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch)) {
   if (reference_.size() <= config.mpc.horizon) {
     throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");
   }

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "config/route_file.hpp"
-#include "control/lpv_mpc.hpp"
+#include "control/controller.hpp"
 #include "control/reference.hpp"
 #include "daemon/config.hpp"
 #include "daemon/control_loop.hpp"
@@ -16,8 +17,12 @@ namespace lpvmpcd {
 class Assembly {
  public:
   // Throws std::runtime_error, one line: a file of the configuration is missing or wrong
-  // (config::ConfigError, dbc::DbcError with file and line), or the route is shorter than a horizon.
+  // (config::ConfigError, dbc::DbcError with file and line), the route is shorter than a horizon, or the controller
+  // is none for a daemon.
   Assembly(const Config& config, std::function<Time()> stopwatch);
+  // With a controller of the caller's, whose horizon is the configuration's.
+  Assembly(const Config& config, std::function<Time()> stopwatch,
+           std::unique_ptr<control::Controller> controller);
 
   Assembly(const Assembly&) = delete;  // the loop points into it
   Assembly& operator=(const Assembly&) = delete;
@@ -28,12 +33,13 @@ class Assembly {
   [[nodiscard]] const control::RoadBounds& road() const { return road_; }
 
  private:
-  Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch);
+  Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch,
+           std::unique_ptr<control::Controller> controller);
 
   dbc::VehicleBus bus_;
   control::Reference reference_;
   control::RoadBounds road_;
-  control::LpvMpc controller_;
+  std::unique_ptr<control::Controller> controller_;
   ControlLoop loop_;
 };
 

@@ -1,6 +1,7 @@
 #include "daemon/config.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <vector>
@@ -14,6 +15,7 @@ using config::TomlTable;
 
 constexpr double kSmallest = 1e-9;  // of what has to be positive
 constexpr double kLargest = 1e12;
+constexpr std::array kControllerNames{"lpv", "lpv-standard", "nmpc"};  // in the order of ControllerKind
 
 // Sets `vector` from the array under `key`, if it is there.
 template <typename Vector>
@@ -55,8 +57,15 @@ void ReadLimits(const TomlTable& table, Config& config) {
   config.mpc.rate_max = {l.max_steering_step, l.max_acceleration_step};
 }
 
-void ReadController(const TomlTable& table, control::LpvMpcSettings& mpc) {
-  mpc.trust_region = table.ChoiceOr("kind", 0, {"lpv", "lpv-standard"}) == 0;
+void Select(Config& config, ControllerKind kind) {
+  config.controller = kind;
+  config.mpc.trust_region = kind == ControllerKind::kLpv;
+}
+
+void ReadController(const TomlTable& table, Config& config) {
+  Select(config, static_cast<ControllerKind>(
+                     table.ChoiceOr("kind", 0, {kControllerNames.begin(), kControllerNames.end()})));
+  control::LpvMpcSettings& mpc = config.mpc;
   mpc.horizon = table.IntegerOr("horizon", mpc.horizon, {2, 100});
   const bool euler = table.ChoiceOr("discretisation", 0, {"euler", "zero-order-hold"}) == 0;
   mpc.discretisation = euler ? control::Discretisation::kEuler : control::Discretisation::kZeroOrderHold;
@@ -113,7 +122,7 @@ Config LoadConfig(const std::filesystem::path& file) {
   ReadMonitor(root.Table("monitor"), config.loop.monitor);
   ReadLimits(root.Table("limits"), config);
   ReadModes(root.Table("engage"), root.Table("safe_stop"), config.loop);
-  ReadController(root.Table("controller"), config.mpc);
+  ReadController(root.Table("controller"), config);
   ReadVehicle(root.Table("vehicle"), config.vehicle);
   config.loop.send_horizon = root.Table("status").BooleanOr("horizon", config.loop.send_horizon);
   const std::vector<std::string> levels = {"debug", "info", "warning", "error"};
@@ -123,14 +132,16 @@ Config LoadConfig(const std::filesystem::path& file) {
 }
 
 void SelectController(Config& config, const std::string& name) {
-  if (name != "lpv" && name != "lpv-standard") {
-    throw std::invalid_argument("no controller \"" + name + "\": lpv or lpv-standard");
+  const auto known = std::ranges::find(kControllerNames, name);
+  if (known == kControllerNames.end()) {
+    throw std::invalid_argument(
+        fmt::format("no controller \"{}\": {}", name, fmt::join(kControllerNames, ", ")));
   }
-  config.mpc.trust_region = name == "lpv";
+  Select(config, static_cast<ControllerKind>(known - kControllerNames.begin()));
 }
 
-std::string ControllerName(const Config& config) {
-  return config.mpc.trust_region ? "lpv" : "lpv-standard";
+const char* ControllerName(ControllerKind kind) {
+  return kControllerNames.at(static_cast<std::size_t>(kind));
 }
 
 }  // namespace lpvmpcd

@@ -18,9 +18,10 @@
 //                 max_acceleration = 2.0        [m/s²], 0..13
 //                 max_acceleration_step = 1.5   |a_k − a_{k−1}| [m/s²], 0.01..20
 //                 (of the problem that is solved and of the limiter after it)
-//   [controller]  kind = "lpv"                  "lpv": with the scheduling trust region, "lpv-standard": without
+//   [controller]  kind = "lpv"                  "lpv": with the scheduling trust region, "lpv-standard": without,
+//                                               "nmpc": for lpvmpc alone, the daemon refuses it
 //                 horizon = 8                   N, 2..100
-//                 discretisation = "euler"      "euler" as in the paper, or "zero-order-hold"
+//                 discretisation = "euler"      "euler" as in the paper, or "zero-order-hold"; nmpc: Euler always
 //                 Q = [10, 10, 1, 1, 10, 1]     weights of the error in X Y υ ν ψ ω, each >= 0
 //                 P = Q                         those of the last step
 //                 R = [0.1, 0.1]                weights of δ and a, each > 0
@@ -33,6 +34,7 @@
 //   [log]         level = "info"                "debug", "info", "warning", "error"
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -43,12 +45,15 @@
 
 namespace lpvmpcd {
 
+enum class ControllerKind : std::uint8_t { kLpv, kLpvStandard, kNmpc };
+
 struct Config {
   std::filesystem::path dbc;  // empty: built in
   std::filesystem::path route;
   ServiceSettings service;
   LoopSettings loop;
-  control::LpvMpcSettings mpc;
+  ControllerKind controller = ControllerKind::kLpv;
+  control::LpvMpcSettings mpc;  // its trust_region is that of `controller`
   control::VehicleParameters vehicle;
   std::string log_level = "info";
 };
@@ -56,8 +61,8 @@ struct Config {
 // Throws config::ConfigError: file, line, key, value and what is allowed.
 [[nodiscard]] Config LoadConfig(const std::filesystem::path& file);
 
-// Names of the controllers, and the choice of one: "lpv" or "lpv-standard". Throws std::invalid_argument.
+// Choice of a controller by its name, as in the file. Throws std::invalid_argument.
 void SelectController(Config& config, const std::string& name);
-[[nodiscard]] std::string ControllerName(const Config& config);
+[[nodiscard]] const char* ControllerName(ControllerKind kind);
 
 }  // namespace lpvmpcd

@@ -2,12 +2,15 @@
 
 #include <chrono>
 #include <fmt/format.h>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "daemon/assembly.hpp"
 #include "daemon/service.hpp"
 #include "daemon/time.hpp"
 #include "sim/virtual_vehicle.hpp"
+#include "tools/make_controller.hpp"
 
 namespace tools {
 
@@ -18,7 +21,9 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Confi
         fmt::format("the configuration's cycle.period = {} must be {} s, the simulated vehicle's",
                     std::chrono::duration<double>(config.loop.period).count(), sim::kCycleTime));
   }
-  lpvmpcd::Assembly controller(config, lpvmpcd::MonotonicNow);
+  std::unique_ptr<control::Controller> law = MakeController(config);
+  if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
+  lpvmpcd::Assembly controller(config, lpvmpcd::MonotonicNow, std::move(law));
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);
   for (can::Time now{}; !recorder.finished(); now += config.loop.period) {

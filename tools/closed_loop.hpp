@@ -9,6 +9,7 @@
 #include "daemon/config.hpp"
 #include "sim/scenario.hpp"
 #include "sim/summary.hpp"
+#include "tools/observed_controller.hpp"
 
 namespace tools {
 
@@ -17,6 +18,8 @@ struct ClosedLoopHooks {
   std::function<void(const can::Frame&)> frame = nullptr;
   // Called after every cycle.
   std::function<void(const sim::Recorder&)> cycle = nullptr;
+  // Called after every step of the controller.
+  std::function<void(const StepObservation&)> step = nullptr;
 };
 
 // Drives the scenario to its end. Throws one line, before anything is driven: std::runtime_error if a file of the

@@ -9,7 +9,9 @@ namespace {
 
 // Argument: N.
 void ControlStep(benchmark::State& state, Discretisation method) {
-  LpvMpc mpc(VehicleParameters{}, {.horizon = static_cast<int>(state.range(0)), .discretisation = method});
+  LpvMpcSettings settings{.discretisation = method};
+  settings.horizon = static_cast<int>(state.range(0));
+  LpvMpc mpc(VehicleParameters{}, settings);
   const Reference reference = testing::StraightPath(200, 12.0);
   const auto start = [&] {
     mpc.Reset();

@@ -146,7 +146,9 @@ TEST(LpvMpc, SlowVehicleIsStillSolvedFor) {
     for (const int horizon : {8, 15, 40}) {
       for (const double speed : {1.2, 3.0, 6.0}) {
         if (method == Discretisation::kEuler && speed < 3.0) continue;
-        LpvMpc mpc = Make({.horizon = horizon, .discretisation = method});
+        LpvMpcSettings settings{.discretisation = method};
+        settings.horizon = horizon;
+        LpvMpc mpc = Make(settings);
         ClosedLoop loop(mpc, StraightPath(60, speed));
         loop.z()[kY] = 0.1;
         while (loop.k() < 20) {
@@ -258,7 +260,9 @@ Drive DriveAlong(const WindingRoad& road, const LpvMpcSettings& settings) {
 
 TEST(LpvMpcAtAnObstacle, TrustRegionDrivesAroundItOnTheGivenSide) {
   for (const int horizon : {8, 15}) {
-    const Drive drive = DriveAlong({}, {.horizon = horizon});
+    LpvMpcSettings settings;
+    settings.horizon = horizon;
+    const Drive drive = DriveAlong({}, settings);
     EXPECT_TRUE(drive.solved) << "N = " << horizon << ", step " << drive.failed_at;
     EXPECT_GE(drive.clearance, 0.0) << horizon;
     EXPECT_TRUE(drive.passed_left);
@@ -267,7 +271,9 @@ TEST(LpvMpcAtAnObstacle, TrustRegionDrivesAroundItOnTheGivenSide) {
 }
 
 TEST(LpvMpcAtAnObstacle, StandardControllerBecomesInfeasibleWhereTheTrustRegionDoesNot) {
-  const Drive drive = DriveAlong({}, {.horizon = 15, .trust_region = false});
+  LpvMpcSettings settings{.trust_region = false};
+  settings.horizon = 15;
+  const Drive drive = DriveAlong({}, settings);
   EXPECT_FALSE(drive.solved);
   EXPECT_GT(drive.failed_at, 230);
 }

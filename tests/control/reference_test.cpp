@@ -114,15 +114,6 @@ TEST(Reference, WindowPastTheEndGoesOnStraight) {
   }
 }
 
-TEST(Reference, NearestIsTheClosestPointFromTheGivenIndexOn) {
-  const Reference reference(Circle(30.0, 0.02, 700), kStep);  // 2.2 turns
-  const double angle = 50 * 0.02;
-  const double X = 33.0 * std::cos(angle), Y = 33.0 * std::sin(angle);
-  EXPECT_EQ(reference.Nearest(X, Y), 50);
-  EXPECT_EQ(reference.Nearest(X, Y, 20), 50);
-  EXPECT_EQ(reference.Nearest(X, Y, 200), 364);  // one turn is 314.16 points
-}
-
 TEST(Reference, RefusedPointIsNamed) {
   std::vector<Vector2d> points = Line(0.0, 10.0, 10);
   points[6] = points[5];

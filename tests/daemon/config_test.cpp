@@ -42,7 +42,7 @@ TEST_F(ConfigTest, RouteIsAllThatIsRequiredAndItsPathIsRelativeToTheFile) {
   EXPECT_EQ(config.route, folder_ / "route.toml");
   EXPECT_EQ(config.service.interface, "can0");
   EXPECT_EQ(config.service.timeout, FromSeconds(0.075));
-  EXPECT_EQ(ControllerName(config), "lpv");
+  EXPECT_STREQ(ControllerName(config.controller), "lpv");
   EXPECT_THAT(Error(""), HasSubstr("file"));
 }
 
@@ -69,7 +69,7 @@ TEST_F(ConfigTest, LastWeightsAreThoseOfTheOtherStepsUnlessGiven) {
 
 TEST_F(ConfigTest, ControllerCanBeChosen) {
   Config config = Load(kRoute + "[controller]\nkind = \"lpv-standard\"\n");
-  EXPECT_EQ(ControllerName(config), "lpv-standard");
+  EXPECT_STREQ(ControllerName(config.controller), "lpv-standard");
   EXPECT_FALSE(config.mpc.trust_region);
   SelectController(config, "lpv");
   EXPECT_TRUE(config.mpc.trust_region);
@@ -120,6 +120,10 @@ TEST_F(ConfigTest, AssemblyNamesTheFileThatIsMissingOrWrong) {
         "length = 100.0}]\n"
         "[road]\nleft = 4.0\nright = 4.0\n");
   EXPECT_EQ(error_of(config), "");
+
+  SelectController(config, "nmpc");
+  EXPECT_THAT(error_of(config), HasSubstr("nmpc"));
+  SelectController(config, "lpv");
 
   config.dbc = folder_ / "none.dbc";
   EXPECT_THAT(error_of(config), HasSubstr("none.dbc"));
