@@ -2,16 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "control/constraint.hpp"
 #include "control/types.hpp"
 
 namespace control {
 
 enum class SolverStatus : std::uint8_t {
   kSolved,            // the KKT residual is below the tolerance
-  kInfeasible,        // proven: no input satisfies the hard constraints
+  kInfeasible,        // no input satisfies the hard constraints: proven by a QP's solver
   kIterationLimit,    // stopped before convergence
   kNumericalFailure,  // the factorisation broke down, or the data held a value that is not finite
 };
@@ -40,10 +42,13 @@ class Controller {
   virtual ~Controller() = default;
   [[nodiscard]] virtual int horizon() const = 0;  // N
   // One control step. The plan belongs to the controller and stays until the next Step or Reset. Does not
-  // allocate.
+  // allocate, but for an NMPC's.
   [[nodiscard]] virtual const Plan& Step(const ControllerInput& input) = 0;
   // Forgets the last plan: the next step schedules from the measured state alone.
   virtual void Reset() = 0;
+  // After a step that was not solved: which hard constraint stands most in the way, and by how much. None where that
+  // is not known. For reports, not for the control path: it allocates and solves.
+  [[nodiscard]] virtual std::optional<ConstraintViolation> Unsatisfied() const { return std::nullopt; }
 };
 
 }  // namespace control

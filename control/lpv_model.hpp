@@ -5,7 +5,7 @@
 // The position's rows use the frozen heading ψ̂, so within one prediction a change of ψ does not move X and Y.
 #pragma once
 
-#include "control/types.hpp"
+#include "control/linear_model.hpp"
 #include "control/vehicle_parameters.hpp"
 
 namespace control {
@@ -16,11 +16,6 @@ struct Scheduling {
   double nu = 0.0;
   double delta = 0.0;
   double psi = 0.0;
-};
-
-struct LinearModel {
-  Eigen::Matrix<double, kStates, kStates> A;
-  Eigen::Matrix<double, kStates, kInputs> B;
 };
 
 enum class Discretisation {

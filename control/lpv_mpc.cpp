@@ -24,6 +24,7 @@ LpvMpc::LpvMpc(const VehicleParameters& vehicle, const LpvMpcSettings& settings)
     : settings_(settings),
       model_(vehicle),
       qp_(settings.horizon),
+      constraints_(Index(settings.horizon) + 1),
       solver_(settings.horizon, settings.qp),
       guess_(settings.horizon),
       predicted_z_(Index(settings.horizon) + 1, State::Zero()),
@@ -93,11 +94,17 @@ void LpvMpc::BuildRows(const ControllerInput& input, int i) {
   const State& z_ref = input.reference[Index(i)];
   using VectorX = Eigen::Matrix<double, 8, 1>;
   bool fits = true;
+  // What the row added last stands for.
+  const auto name = [&](ConstraintKind kind, int index) {
+    constraints_[Index(i)][Index(stage.row_count - 1)] = {.kind = kind, .index = index, .step = i};
+  };
   if (i < settings_.horizon) {
     for (int j = 0; j < kInputs; ++j) {
       fits &= stage.AddInputBound(j, settings_.u_min[j], settings_.u_max[j]);
+      name(ConstraintKind::kInput, j);
       const VectorX C = -VectorX::Unit(kPreviousInput + j);
       fits &= stage.AddRow(C, Input::Unit(j), -settings_.rate_max[j], settings_.rate_max[j]);
+      name(ConstraintKind::kRate, j);
     }
     if (settings_.trust_region && has_prediction_) {
       const double delta_hat = predicted_u_[Index(i)][kDelta];
@@ -109,11 +116,13 @@ void LpvMpc::BuildRows(const ControllerInput& input, int i) {
   for (int j = 0; j < kStates; ++j) {
     const double origin = j == kPsi ? 0.0 : z_ref[j];
     fits &= stage.AddStateBound(j, settings_.z_min[j] - origin, settings_.z_max[j] - origin);
+    name(ConstraintKind::kState, j);
   }
   VectorX normal = VectorX::Zero();
   normal[kX] = -std::sin(z_ref[kPsi]);
   normal[kY] = std::cos(z_ref[kPsi]);
   fits &= stage.AddRow(normal, Input::Zero(), input.road.right, input.road.left);
+  name(ConstraintKind::kRoad, 0);
   if (settings_.trust_region && has_prediction_ && i < settings_.horizon) {
     for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
       const int state = kScheduledStates[j];
@@ -131,9 +140,37 @@ void LpvMpc::BuildRows(const ControllerInput& input, int i) {
     C[kY] = halfspace->b;
     const double lo = halfspace->c - halfspace->a * z_ref[kX] - halfspace->b * z_ref[kY];
     fits &= stage.AddRow(C, Input::Zero(), lo, kNoBound);
+    name(ConstraintKind::kObstacle, obstacle.id);
   }
   // An obstacle that no longer fits must not be ignored: a row that cannot hold makes the problem infeasible.
   if (!fits) stage.rows.back() = {.C = VectorX::Zero(), .D = Input::Zero(), .lo = 1.0, .hi = kNoBound};
+}
+
+std::optional<ConstraintViolation> LpvMpc::Unsatisfied() const {
+  constexpr double kPenalty = 1e6;  // against costs of about 1 to 100: all but the least violation
+  const auto holds_state = [](const Constraint& constraint) {
+    return constraint.kind == ConstraintKind::kState || constraint.kind == ConstraintKind::kRoad ||
+           constraint.kind == ConstraintKind::kObstacle;
+  };
+  OcpQp<8, 2> elastic = qp_;
+  for (std::size_t i = 0; i < elastic.stages.size(); ++i) {
+    auto& stage = elastic.stages[i];
+    for (std::size_t j = 0; j < Index(stage.row_count); ++j) {
+      if (!stage.rows[j].soft() && holds_state(constraints_[i][j])) stage.rows[j].rho = kPenalty;
+    }
+  }
+  OcpQpSolver<8, 2> solver(settings_.horizon, settings_.qp);
+  if (solver.Solve(elastic).status != SolverStatus::kSolved) return std::nullopt;
+  ConstraintViolation largest;
+  for (std::size_t i = 0; i < elastic.stages.size(); ++i) {
+    for (std::size_t j = 0; j < Index(elastic.stages[i].row_count); ++j) {
+      const double slack = solver.solution().stages[i].slack[j];
+      if (elastic.stages[i].rows[j].rho == kPenalty && slack > largest.amount) {
+        largest = {.constraint = constraints_[i][j], .amount = slack};
+      }
+    }
+  }
+  return largest;
 }
 
 void LpvMpc::ReadPlan(const ControllerInput& input) {

@@ -5,6 +5,10 @@
 // would cost, and the input last applied makes the rate limits rows of a stage.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <vector>
+
 #include "control/controller.hpp"
 #include "control/lpv_model.hpp"
 #include "control/mpc_settings.hpp"
@@ -31,6 +35,8 @@ class LpvMpc final : public Controller {
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
   [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
   void Reset() override;
+  // The row that needs the largest slack if the rows that hold states (bounds, road, obstacles) are made soft.
+  [[nodiscard]] std::optional<ConstraintViolation> Unsatisfied() const override;
 
   // The QP of the last step, for recording and for tests.
   [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }
@@ -45,6 +51,7 @@ class LpvMpc final : public Controller {
   LpvMpcSettings settings_;
   LpvModel model_;
   OcpQp<8, 2> qp_;
+  std::vector<std::array<Constraint, kMaxRows>> constraints_;  // what the rows of each stage stand for
   OcpQpSolver<8, 2> solver_;
   OcpQpPoint<8, 2> guess_;
   Plan plan_;

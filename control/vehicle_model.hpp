@@ -7,7 +7,7 @@
 // with F_yf = C_αf (δ − (ν + l_f ω)/υ) and F_yr = C_αr (l_r ω − ν)/υ of one tyre. Needs υ > 0.
 #pragma once
 
-#include "control/types.hpp"
+#include "control/linear_model.hpp"
 #include "control/vehicle_parameters.hpp"
 
 namespace control {
@@ -17,6 +17,13 @@ class VehicleModel {
   explicit VehicleModel(const VehicleParameters& parameters) : parameters_(parameters) {}
 
   [[nodiscard]] State Derivative(const State& z, const Input& u) const;
+
+  // ∂f/∂z and ∂f/∂u.
+  [[nodiscard]] LinearModel Jacobian(const State& z, const Input& u) const;
+
+  // ∇² of λᵀf with respect to [z; u], symmetric.
+  using Curvature = Eigen::Matrix<double, kStates + kInputs, kStates + kInputs>;
+  [[nodiscard]] Curvature Hessian(const State& z, const Input& u, const State& lambda) const;
 
  private:
   VehicleParameters parameters_;

@@ -9,7 +9,8 @@ namespace {
 
 // Argument: N.
 void ControlStep(benchmark::State& state, Discretisation method) {
-  LpvMpcSettings settings{.discretisation = method};
+  LpvMpcSettings settings;
+  settings.discretisation = method;
   settings.horizon = static_cast<int>(state.range(0));
   LpvMpc mpc(VehicleParameters{}, settings);
   const Reference reference = testing::StraightPath(200, 12.0);

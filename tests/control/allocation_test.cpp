@@ -75,7 +75,9 @@ TEST(Allocations, SolverTakesNone) {
 
 TEST(Allocations, ControlStepTakesNone) {
   for (const auto method : {Discretisation::kEuler, Discretisation::kZeroOrderHold}) {
-    LpvMpc mpc(VehicleParameters{}, {.discretisation = method});
+    LpvMpcSettings settings;
+    settings.discretisation = method;
+    LpvMpc mpc(VehicleParameters{}, settings);
     ClosedLoop loop(mpc, testing::StraightPath(200, 12.0));
     loop.z()[kY] = 0.4;
     loop.obstacles().reserve(100);

@@ -33,7 +33,9 @@ void ExpectInputsWithinBounds(const LpvMpcSettings& s, const Plan& plan, const I
 
 TEST(LpvMpc, OnTheReferenceNothingNeedsToBeDone) {
   for (const bool trust_region : {true, false}) {
-    LpvMpc mpc = Make({.trust_region = trust_region});
+    LpvMpcSettings settings;
+    settings.trust_region = trust_region;
+    LpvMpc mpc = Make(settings);
     ClosedLoop loop(mpc, StraightPath(100, 12.0));
     while (loop.k() < 60) {
       const Plan& plan = loop.Ask();
@@ -48,7 +50,8 @@ TEST(LpvMpc, OnTheReferenceNothingNeedsToBeDone) {
 
 TEST(LpvMpc, VehicleOffThePathIsBroughtBackWithinAllBounds) {
   for (const auto method : {Discretisation::kEuler, Discretisation::kZeroOrderHold}) {
-    const LpvMpcSettings settings{.discretisation = method};
+    LpvMpcSettings settings;
+    settings.discretisation = method;
     LpvMpc mpc = Make(settings);
     ClosedLoop loop(mpc, StraightPath(300, 12.0));
     loop.z()[kY] = 0.6;
@@ -127,7 +130,9 @@ TEST(LpvMpc, HeavyTrustRegionKeepsTheScheduledQuantitiesWithinItsRadii) {
 }
 
 TEST(LpvMpc, WithoutTrustRegionNothingOfItIsReported) {
-  LpvMpc mpc = Make({.trust_region = false});
+  LpvMpcSettings settings;
+  settings.trust_region = false;
+  LpvMpc mpc = Make(settings);
   ClosedLoop loop(mpc, StraightPath(100, 12.0));
   loop.z()[kY] = 0.6;
   while (loop.k() < 20) {
@@ -146,7 +151,8 @@ TEST(LpvMpc, SlowVehicleIsStillSolvedFor) {
     for (const int horizon : {8, 15, 40}) {
       for (const double speed : {1.2, 3.0, 6.0}) {
         if (method == Discretisation::kEuler && speed < 3.0) continue;
-        LpvMpcSettings settings{.discretisation = method};
+        LpvMpcSettings settings;
+        settings.discretisation = method;
         settings.horizon = horizon;
         LpvMpc mpc = Make(settings);
         ClosedLoop loop(mpc, StraightPath(60, speed));
@@ -207,6 +213,26 @@ TEST(LpvMpc, VehicleStaysOnTheRoad) {
     }
     loop.Drive(plan);
   }
+}
+
+TEST(LpvMpc, WhatStandsInTheWayIsNamedWithTheLeastRelaxation) {
+  LpvMpc mpc = Make();
+  ClosedLoop loop(mpc, StraightPath(150, 12.0));
+  loop.road() = {.left = 0.5, .right = -0.5};
+  loop.z()[kY] = 0.9;  // and going straight on: after one step still there
+  ASSERT_EQ(loop.Ask().status, SolverStatus::kInfeasible);
+  const auto violation = mpc.Unsatisfied();
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->constraint.kind, ConstraintKind::kRoad);
+  EXPECT_EQ(violation->constraint.step, 1);
+  EXPECT_NEAR(violation->amount, 0.4, 1e-3);
+
+  loop.road() = {};
+  loop.obstacles() = {{.id = 5, .X = 0.6, .Y = 0.0, .r_x = 1.0, .r_y = 1.0, .side = PassingSide::kLeft}};
+  ASSERT_EQ(loop.Ask().status, SolverStatus::kInfeasible);
+  ASSERT_TRUE(mpc.Unsatisfied());
+  EXPECT_EQ(mpc.Unsatisfied()->constraint.kind, ConstraintKind::kObstacle);
+  EXPECT_EQ(mpc.Unsatisfied()->constraint.index, 5);
 }
 
 // A winding road at 12 m/s with a circle of radius 1 m, 0.5 m beside the path: half a metre (and the margin) of shift.
@@ -271,7 +297,8 @@ TEST(LpvMpcAtAnObstacle, TrustRegionDrivesAroundItOnTheGivenSide) {
 }
 
 TEST(LpvMpcAtAnObstacle, StandardControllerBecomesInfeasibleWhereTheTrustRegionDoesNot) {
-  LpvMpcSettings settings{.trust_region = false};
+  LpvMpcSettings settings;
+  settings.trust_region = false;
   settings.horizon = 15;
   const Drive drive = DriveAlong({}, settings);
   EXPECT_FALSE(drive.solved);

@@ -1,0 +1,29 @@
+// A hard constraint of a controller's problem by name, and by how much it cannot be met.
+#pragma once
+
+#include <cstdint>
+
+namespace control {
+
+enum class ConstraintKind : std::uint8_t {
+  kModel,     // z_{i+1} follows from z_i and u_i; index of the state
+  kInput,     // u_min ≤ u_i ≤ u_max; index of the input
+  kRate,      // |u_i − u_{i−1}|; index of the input
+  kState,     // z_min ≤ z_i ≤ z_max; index of the state
+  kRoad,      // road bounds at z_i
+  kObstacle,  // obstacle at z_i; its id
+};
+
+struct Constraint {
+  ConstraintKind kind = ConstraintKind::kModel;
+  int index = 0;
+  int step = 0;  // i, 0..N
+};
+
+struct ConstraintViolation {
+  Constraint constraint;
+  double amount =
+      0.0;  // in the constraint's unit, > 0; of an NMPC's obstacle in that of (eq:NMPC_obs_cons), 1
+};
+
+}  // namespace control

@@ -1,0 +1,203 @@
+#include "control/nmpc_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/control/closed_loop.hpp"
+#include "tests/control/random.hpp"
+
+namespace control {
+namespace {
+
+using Curvature = VehicleModel::Curvature;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using testing::Random;
+
+State RandomState(Random& random) {
+  return {random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0), random.Uniform(3.0, 30.0),
+          random.Uniform(-2.0, 2.0),   random.Uniform(-4.0, 4.0),   random.Uniform(-1.0, 1.0)};
+}
+
+Input RandomInput(Random& random) {
+  return {random.Uniform(-0.5, 0.5), random.Uniform(-6.0, 2.0)};
+}
+
+// Central differences; `function` maps a vector to a vector.
+template <typename Function>
+MatrixXd Differences(const VectorXd& at, const Function& function) {
+  constexpr double kH = 1e-6;
+  MatrixXd jacobian;
+  for (Eigen::Index j = 0; j < at.size(); ++j) {
+    VectorXd up = at, down = at;
+    up[j] += kH;
+    down[j] -= kH;
+    const VectorXd column = (function(up) - function(down)) / (2.0 * kH);
+    if (j == 0) jacobian.resize(column.size(), at.size());
+    jacobian.col(j) = column;
+  }
+  return jacobian;
+}
+
+// Against entries of any size.
+void ExpectClose(const MatrixXd& analytic, const MatrixXd& numeric) {
+  ASSERT_EQ(analytic.rows(), numeric.rows());
+  ASSERT_EQ(analytic.cols(), numeric.cols());
+  const MatrixXd error =
+      (analytic - numeric).cwiseAbs().cwiseQuotient((1.0 + numeric.cwiseAbs().array()).matrix());
+  Eigen::Index row = 0, column = 0;
+  EXPECT_LT(error.maxCoeff(&row, &column), 1e-6)
+      << "at (" << row << ", " << column << "): " << analytic(row, column) << " against "
+      << numeric(row, column);
+}
+
+TEST(VehicleModel, JacobianAndHessianAreTheDerivativesOfTheMotion) {
+  const VehicleModel model({});
+  Random random(3);
+  for (int n = 0; n < 200; ++n) {
+    const State z = RandomState(random);
+    const Input u = RandomInput(random);
+    const State lambda = random.Filled<State>(1.0);
+    VectorXd zu(kStates + kInputs);
+    zu << z, u;
+    const auto f = [&](const VectorXd& at) -> VectorXd {
+      return model.Derivative(at.head<kStates>(), at.tail<kInputs>());
+    };
+    const auto gradient = [&](const VectorXd& at) -> VectorXd {
+      const LinearModel d = model.Jacobian(at.head<kStates>(), at.tail<kInputs>());
+      VectorXd sum(kStates + kInputs);
+      sum << d.A.transpose() * lambda, d.B.transpose() * lambda;
+      return sum;
+    };
+    const LinearModel d = model.Jacobian(z, u);
+    MatrixXd jacobian(kStates, kStates + kInputs);
+    jacobian << d.A, d.B;
+    ExpectClose(jacobian, Differences(zu, f));
+    ExpectClose(model.Hessian(z, u, lambda), Differences(zu, gradient));
+  }
+}
+
+// A bend with two obstacles near by, and a point that is no solution of anything.
+class NmpcProblemTest : public ::testing::Test {
+ protected:
+  NmpcProblemTest()
+      : reference_(testing::PathOf(60, 12.0, [](int) { return 0.02; })), window_(Index(kHorizon) + 1) {
+    settings_.horizon = kHorizon;
+    problem_ = std::make_unique<NmpcProblem>(VehicleParameters{}, settings_);
+    reference_.Window(20, window_);
+    obstacles_ = {{.id = 4, .X = 14.0, .Y = 2.0, .r_x = 2.0, .r_y = 0.7, .heading = 0.6},
+                  {.id = 7, .X = 18.0, .Y = 3.5, .r_x = 0.9, .r_y = 0.9}};
+    problem_->Set(Asked());
+    x_.resize(problem_->variables());
+    for (int i = 0; i < kHorizon; ++i) {
+      x_.segment<kInputs>(NmpcProblem::InputAt(i)) = RandomInput(random_);
+      x_.segment<kStates>(NmpcProblem::StateAt(i + 1)) = RandomState(random_);
+    }
+  }
+
+  static constexpr int kHorizon = 5;
+  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+  static std::span<const double> Span(const VectorXd& v) {
+    return {v.data(), Index(static_cast<int>(v.size()))};
+  }
+  static std::span<double> Span(VectorXd& v) { return {v.data(), Index(static_cast<int>(v.size()))}; }
+
+  [[nodiscard]] ControllerInput Asked() const {
+    return {.z = window_[0],
+            .u_previous = {0.02, 0.3},
+            .reference = window_,
+            .road = {.left = 4.0, .right = -1.0},
+            .obstacles = obstacles_};
+  }
+  [[nodiscard]] VectorXd Rows(const VectorXd& x) const {
+    VectorXd g(problem_->rows());
+    problem_->Rows(Span(x), Span(g));
+    return g;
+  }
+  [[nodiscard]] VectorXd Gradient(const VectorXd& x) const {
+    VectorXd gradient(problem_->variables());
+    problem_->Gradient(Span(x), Span(gradient));
+    return gradient;
+  }
+  [[nodiscard]] MatrixXd Jacobian(const VectorXd& x) const {
+    VectorXd values(problem_->jacobian_pattern().size());
+    problem_->Jacobian(Span(x), Span(values));
+    return Dense(problem_->jacobian_pattern(), values, problem_->rows());
+  }
+  // Each place at most once, so a value must not meet another.
+  [[nodiscard]] MatrixXd Dense(const std::vector<NmpcProblem::Entry>& pattern, const VectorXd& values,
+                               int rows) const {
+    MatrixXd dense = MatrixXd::Zero(rows, problem_->variables());
+    MatrixXd count = dense;
+    for (std::size_t k = 0; k < pattern.size(); ++k) {
+      dense(pattern[k].row, pattern[k].column) = values[static_cast<Eigen::Index>(k)];
+      count(pattern[k].row, pattern[k].column) += 1.0;
+    }
+    EXPECT_LE(count.maxCoeff(), 1.0);
+    return dense;
+  }
+
+  Random random_{11};
+  Reference reference_;
+  std::vector<State> window_;
+  std::vector<Obstacle> obstacles_;
+  MpcSettings settings_;
+  std::unique_ptr<NmpcProblem> problem_;
+  VectorXd x_;
+};
+
+TEST_F(NmpcProblemTest, GradientIsThatOfTheCost) {
+  const auto cost = [&](const VectorXd& x) { return VectorXd::Constant(1, problem_->Cost(Span(x))); };
+  // Of a quadratic function central differences are exact but for round-off, which a cost of 1e5 makes large.
+  const VectorXd gradient = Gradient(x_);
+  EXPECT_LT((gradient - Differences(x_, cost).row(0).transpose()).norm(), 1e-5 * gradient.norm());
+}
+
+TEST_F(NmpcProblemTest, JacobianIsThatOfTheRows) {
+  ExpectClose(Jacobian(x_), Differences(x_, [&](const VectorXd& x) { return Rows(x); }));
+}
+
+TEST_F(NmpcProblemTest, HessianIsThatOfTheLagrangian) {
+  constexpr double kSigma = 0.7;
+  VectorXd lambda(problem_->rows());
+  for (double& l : lambda) l = random_.Uniform(-2.0, 2.0);
+  VectorXd values(problem_->hessian_pattern().size());
+  problem_->Hessian(Span(x_), kSigma, Span(std::as_const(lambda)), Span(values));
+  for (const auto& [row, column] : problem_->hessian_pattern())
+    EXPECT_LE(column, row) << "not the lower triangle";
+  const MatrixXd lower = Dense(problem_->hessian_pattern(), values, problem_->variables());
+  const MatrixXd hessian = lower.selfadjointView<Eigen::Lower>();
+  ExpectClose(hessian, Differences(x_, [&](const VectorXd& x) -> VectorXd {
+                return kSigma * Gradient(x) + Jacobian(x).transpose() * lambda;
+              }));
+}
+
+TEST_F(NmpcProblemTest, PatternFollowsTheNumberOfObstacles) {
+  obstacles_.pop_back();
+  problem_->Set(Asked());
+  ExpectClose(Jacobian(x_), Differences(x_, [&](const VectorXd& x) { return Rows(x); }));
+}
+
+TEST_F(NmpcProblemTest, ReferenceAtRestOnItselfViolatesNothingButWhatStandsInItsWay) {
+  // The reference moves as Euler's model says on the straight alone.
+  reference_ = testing::StraightPath(60, 12.0);
+  reference_.Window(0, window_);
+  obstacles_ = {{.id = 3, .X = 100.0, .Y = 0.0}};
+  const auto violation = [&] {
+    problem_->Set(Asked());
+    x_.setZero();
+    for (int i = 1; i <= kHorizon; ++i) x_.segment<kStates>(NmpcProblem::StateAt(i)) = window_[Index(i)];
+    return problem_->LargestViolation(Span(std::as_const(x_)));
+  };
+  EXPECT_LT(violation().amount, 1e-9);
+  EXPECT_EQ(problem_->Cost(Span(std::as_const(x_))), 0.0);
+
+  obstacles_[0].X = window_[4][kX];
+  const ConstraintViolation obstacle = violation();
+  EXPECT_EQ(obstacle.constraint.kind, ConstraintKind::kObstacle);
+  EXPECT_EQ(obstacle.constraint.index, 3);
+  EXPECT_EQ(obstacle.constraint.step, 4);
+  EXPECT_NEAR(obstacle.amount, 1.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace control
