@@ -1,0 +1,50 @@
+// Builds the page from the report, and draws it anew when the system's scheme changes and for the paper.
+const sectionBuilders = {
+  text() {}, figures: addFigures, table: addTable, drives: addDrives, fans: addFans, map: addMap,
+};
+
+function addSection(report, section, index) {
+  const heading = section.title === "" ? [] : [element("h2", {}, section.title)];
+  const paragraphs = section.paragraphs.map(text => element("p", {}, text));
+  const body = element("section", section.title === "" ? {class: "untitled"} : {}, ...heading, ...paragraphs);
+  document.querySelector("main").append(body);
+  sectionBuilders[section.type](report, section, body, index);
+}
+
+function redrawAll() {
+  for (const {plot} of plots) plot.redraw(false, false);
+  for (const redraw of onThemeChange) redraw();
+}
+
+function setPrinting(printing) {
+  document.documentElement.toggleAttribute("data-print", printing);
+  for (const {fit} of plots) fit();
+  redrawAll();
+}
+
+function buildPage() {
+  // Also what goes wrong later, while something is drawn. The browser logs it.
+  window.addEventListener("error", event => showFault(`The report could not be drawn: ${event.message}`));
+  const report = JSON.parse(document.getElementById("report-data").textContent);
+  const faults = checkReport(report);
+  if (faults.length > 0) {
+    const text = `The data of this report is not what it must be:\n${faults.join("\n")}`;
+    showFault(text);
+    console.error(text);
+    return;
+  }
+  document.querySelector("main").append(element("header", {}, element("h1", {}, report.title),
+    ...(report.subtitle ? [element("p", {class: "subtitle"}, report.subtitle)] : [])));
+  report.sections.forEach((section, index) => addSection(report, section, index));
+
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
+  window.addEventListener("beforeprint", () => setPrinting(true));
+  window.addEventListener("afterprint", () => setPrinting(false));
+  // Plots are drawn in microtasks: when a task of its own comes, all are.
+  setTimeout(() => {
+    document.documentElement.dataset.plots = plots.length;
+    if (!document.querySelector(".fault")) document.documentElement.dataset.ready = "1";
+  });
+}
+
+buildPage();

@@ -1,0 +1,93 @@
+// Draws in metres on a plot whose scales are x and y. `style`: {color, width, dash, fill, alpha}, widths in CSS pixels.
+function makePen(plot) {
+  const {ctx} = plot;
+  const at = (X, Y) => [plot.valToPos(X, "x", true), plot.valToPos(Y, "y", true)];
+  const pixelsPerMetre = plot.bbox.width / (plot.scales.x.max - plot.scales.x.min);
+
+  function finish(path, {color: stroke, width = 1.5, dash = [], fill, alpha = 1}) {
+    ctx.save();
+    ctx.lineJoin = "round";
+    ctx.globalAlpha = alpha;
+    if (fill) {
+      ctx.fillStyle = fill;
+      ctx.fill(path);
+    }
+    if (stroke) {
+      ctx.strokeStyle = stroke;
+      ctx.lineWidth = width * uPlot.pxRatio;
+      ctx.setLineDash(dash.map(length => length * uPlot.pxRatio));
+      ctx.stroke(path);
+    }
+    ctx.restore();
+  }
+
+  return {
+    // Everything that `draw` draws is kept inside the plotting area.
+    clipped(draw) {
+      const {left, top, width, height} = plot.bbox;
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(left, top, width, height);
+      ctx.clip();
+      draw();
+      ctx.restore();
+    },
+
+    // Where a sample is null the line has a gap.
+    line(X, Y, style) {
+      const path = new Path2D();
+      let down = false;
+      for (let i = 0; i < X.length; ++i) {
+        if (X[i] == null || Y[i] == null) down = false;
+        else if (down) path.lineTo(...at(X[i], Y[i]));
+        else down = (path.moveTo(...at(X[i], Y[i])), true);
+      }
+      finish(path, style);
+    },
+
+    dots(X, Y, radius, style) {
+      const path = new Path2D();
+      X.forEach((x, i) => {
+        const [left, top] = at(x, Y[i]);
+        path.moveTo(left + radius * uPlot.pxRatio, top);
+        path.arc(left, top, radius * uPlot.pxRatio, 0, 2 * Math.PI);
+      });
+      finish(path, style);
+    },
+
+    crosses(X, Y, radius, style) {
+      const path = new Path2D();
+      const r = radius * uPlot.pxRatio;
+      X.forEach((x, i) => {
+        const [left, top] = at(x, Y[i]);
+        path.moveTo(left - r, top - r);
+        path.lineTo(left + r, top + r);
+        path.moveTo(left - r, top + r);
+        path.lineTo(left + r, top - r);
+      });
+      finish(path, style);
+    },
+
+    ellipse({X, Y, r_x, r_y, heading}, style) {
+      const path = new Path2D();
+      path.ellipse(...at(X, Y), r_x * pixelsPerMetre, r_y * pixelsPerMetre, -heading, 0, 2 * Math.PI);
+      finish(path, style);
+    },
+
+    // The vehicle's rectangle about (X, Y), and a wedge that points ahead.
+    vehicle(X, Y, psi, {front, rear, width}, style) {
+      const corner = (ahead, left) => at(X + ahead * Math.cos(psi) - left * Math.sin(psi),
+                                         Y + ahead * Math.sin(psi) + left * Math.cos(psi));
+      const path = new Path2D();
+      path.moveTo(...corner(front, width / 2));
+      path.lineTo(...corner(-rear, width / 2));
+      path.lineTo(...corner(-rear, -width / 2));
+      path.lineTo(...corner(front, -width / 2));
+      path.closePath();
+      path.moveTo(...corner(0, width / 2));
+      path.lineTo(...corner(front, 0));
+      path.lineTo(...corner(0, -width / 2));
+      finish(path, style);
+    },
+  };
+}

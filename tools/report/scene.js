@@ -1,0 +1,92 @@
+// What the plots of the plane show of drives: road, obstacles, driven paths, vehicles, open-loop predictions.
+
+// The index of the sample of `drive` nearest to time `t`; null outside the drive.
+function sampleAt({series, t_s}, t) {
+  const times = series.t;
+  if (t === null || t < times[0] - t_s || t > times.at(-1) + t_s) return null;
+  let low = 0;
+  let high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle;
+    else high = middle;
+  }
+  return t - times[low] <= times[high] - t ? low : high;
+}
+
+const hasPose = ({series}, k) => series.X[k] != null && series.Y[k] != null && series.psi[k] != null;
+
+// The obstacle where it is at time `t`.
+const obstacleAt = (obstacle, t) =>
+  ({...obstacle, X: obstacle.X + obstacle.velocity_X * t, Y: obstacle.Y + obstacle.velocity_Y * t});
+
+// The sample at which the drive comes nearest to the obstacle's centre; null if it has no pose at all.
+function closestSample(drive, obstacle) {
+  let best = null;
+  let least = Infinity;
+  drive.series.t.forEach((t, k) => {
+    if (!hasPose(drive, k)) return;
+    const {X, Y} = obstacleAt(obstacle, t);
+    const distance = Math.hypot(drive.series.X[k] - X, drive.series.Y[k] - Y);
+    if (distance < least) [best, least] = [k, distance];
+  });
+  return best;
+}
+
+// The open-loop prediction of step `k` in the plane; null where the report holds none.
+function planOf({plans, series}, k) {
+  const i = plans ? plans.k.indexOf(k) : -1;
+  if (i < 0 || series.X[k] == null || series.Y[k] == null) return null;
+  return {X: plans.dX[i].map(dX => series.X[k] + dX), Y: plans.dY[i].map(dY => series.Y[k] + dY)};
+}
+
+function drawRoad(pen, {reference, left, right}) {
+  const edge = {color: color("road"), width: 2};
+  pen.line(left.X, left.Y, edge);
+  pen.line(right.X, right.Y, edge);
+  pen.line(reference.X, reference.Y, {color: color("road"), width: 1, dash: [6, 4]});
+}
+
+function drawObstacle(pen, obstacle) {
+  const {r_x, r_y, margin} = obstacle;
+  pen.ellipse(obstacle, {fill: color("obstacle"), color: color("obstacle-edge"), width: 1});
+  pen.ellipse({...obstacle, r_x: r_x + margin, r_y: r_y + margin},
+              {color: color("obstacle-edge"), width: 1, dash: [4, 3]});
+}
+
+// Obstacles of several drives, each once, where they are when `sample(drive, obstacle)` is.
+function drawObstacles(pen, drives, sample) {
+  const drawn = new Set();
+  for (const drive of drives) {
+    for (const obstacle of drive.obstacles) {
+      const k = sample(drive, obstacle);
+      const placed = obstacleAt(obstacle, k === null ? 0 : drive.series.t[k]);
+      const key = JSON.stringify(placed);
+      if (!drawn.has(key)) drawObstacle(pen, placed);
+      drawn.add(key);
+    }
+  }
+}
+
+const roadsOf = (report, drives) => [...new Set(drives.map(drive => drive.road))].map(key => report.roads[key]);
+
+// The points of the obstacles' margins, as a line for boxAbout().
+function extentOf(drives) {
+  const corners = drives.flatMap(drive => drive.obstacles.flatMap(obstacle => {
+    const k = closestSample(drive, obstacle);
+    const {X, Y, r_x, r_y, margin} = obstacleAt(obstacle, k === null ? 0 : drive.series.t[k]);
+    const radius = Math.max(r_x, r_y) + margin;
+    return [{X: X - radius, Y: Y - radius}, {X: X + radius, Y: Y + radius}];
+  }));
+  return {X: corners.map(corner => corner.X), Y: corners.map(corner => corner.Y)};
+}
+
+const roadLegend = () => [
+  {swatch: lineSwatch("road", {width: 2}), label: "road edges"},
+  {swatch: lineSwatch("road", {width: 1.2, dash: "6 4"}), label: "reference"},
+  {
+    swatch: swatch(`<ellipse cx="15" cy="7" rx="8" ry="4" fill="var(--obstacle)" stroke="var(--obstacle-edge)"/>` +
+      `<ellipse cx="15" cy="7" rx="12" ry="6.4" fill="none" stroke="var(--obstacle-edge)" stroke-dasharray="3 2"/>`),
+    label: "obstacle and its margin",
+  },
+];

@@ -1,0 +1,27 @@
+// Colours and fonts of the canvases: the custom properties of page.css, read anew whenever something is drawn, for
+// they change with the system's scheme and in print.
+const rootStyle = getComputedStyle(document.documentElement);
+
+function color(name) {
+  const value = rootStyle.getPropertyValue("--" + name).trim();
+  if (value === "") throw new Error(`page.css has no colour --${name}`);
+  return value;
+}
+
+// The name of the colour of drive number `i` of a section.
+const driveColor = i => `drive-${i % 6}`;
+
+// The first of several drives is drawn wider, so that it can be seen where another one covers it.
+const driveWidth = (i, drives) => i === 0 && drives.length > 1 ? 3.5 : 1.75;
+
+// The colour at `share` (0 to 1) of the sequential ramp.
+function rampColor(share) {
+  const at = share * 2;
+  const from = Math.min(1, Math.floor(at));
+  const channels = name => [1, 3, 5].map(i => parseInt(color(name).slice(i, i + 2), 16));
+  const low = channels(`ramp-${from}`);
+  const high = channels(`ramp-${from + 1}`);
+  return `rgb(${low.map((c, i) => Math.round(c + (high[i] - c) * (at - from))).join(" ")})`;
+}
+
+const font = (size, weight = 400) => `${weight} ${size}px system-ui, sans-serif`;

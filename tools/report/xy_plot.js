@@ -1,0 +1,94 @@
+// A plot of the plane in metres: the same scale across and up, whatever the window, the zoom or the paper.
+
+const xyHint = "drag to zoom, Ctrl + wheel at the pointer, double click for all";
+
+// The smallest box about the points of `lines` ([{X, Y}]), `margin` metres larger on every side.
+function boxAbout(lines, margin) {
+  const box = {left: Infinity, right: -Infinity, low: Infinity, high: -Infinity};
+  for (const {X, Y} of lines) {
+    for (let i = 0; i < X.length; ++i) {
+      if (X[i] == null || Y[i] == null) continue;
+      box.left = Math.min(box.left, X[i]);
+      box.right = Math.max(box.right, X[i]);
+      box.low = Math.min(box.low, Y[i]);
+      box.high = Math.max(box.high, Y[i]);
+    }
+  }
+  if (box.left > box.right) return {left: -margin, right: margin, low: -margin, high: margin};
+  return {left: box.left - margin, right: box.right + margin, low: box.low - margin, high: box.high + margin};
+}
+
+// The box, larger in one direction, that fills `across` by `down` CSS pixels with one scale.
+function filling(box, across, down) {
+  const metresPerPixel = Math.max((box.right - box.left) / across, (box.high - box.low) / down);
+  const X = (box.left + box.right) / 2;
+  const Y = (box.low + box.high) / 2;
+  const halfWidth = metresPerPixel * across / 2;
+  const halfHeight = metresPerPixel * down / 2;
+  return {left: X - halfWidth, right: X + halfWidth, low: Y - halfHeight, high: Y + halfHeight};
+}
+
+// Mounts a plot that shows the box `home`; `draw(pen)` draws it. `height(width)` of the plot in CSS pixels.
+function mountXyPlot(frame, home, height, draw) {
+  let box = home;   // what must be seen
+  let view;         // what is seen: `box` filling the plot
+  const fill = width => { view = filling(box, width - roomAcross, height(width) - roomDown); };
+  const show = plot => {
+    fill(plot.width);
+    plot.batch(() => {
+      plot.setScale("x", {min: view.left, max: view.right});
+      plot.setScale("y", {min: view.low, max: view.high});
+    });
+  };
+  const zoom = (plot, next) => {
+    box = next;
+    show(plot);
+  };
+
+  fill(frame.host.clientWidth);
+  const plot = mountPlot(frame, {
+    scales: {
+      x: {time: false, range: () => [view.left, view.right]},
+      y: {range: () => [view.low, view.high]},
+    },
+    series: [{}, {show: true, points: {show: false}}],
+    axes: [axis("bottom", "X [m]", {space: 60}), axis("left", "Y [m]", {space: 36})],
+    padding: room.padding,
+    cursor: {
+      points: {show: false},
+      drag: {x: true, y: true, setScale: false},
+      bind: {dblclick: shown => () => (zoom(shown, home), null)},
+    },
+    hooks: {
+      draw: [shown => {
+        const pen = makePen(shown);
+        pen.clipped(() => draw(pen));
+      }],
+      setCursor: [({cursor, posToVal}) => {
+        const inside = cursor.left >= 0;
+        frame.readout.textContent = inside
+          ? `X = ${number(posToVal(cursor.left, "x"), 2)} m, Y = ${number(posToVal(cursor.top, "y"), 2)} m` : "";
+      }],
+      setSelect: [shown => {
+        const {left, top, width, height: tall} = shown.select;
+        if (width < 4 && tall < 4) return;
+        zoom(shown, {left: shown.posToVal(left, "x"), right: shown.posToVal(left + width, "x"),
+                     low: shown.posToVal(top + tall, "y"), high: shown.posToVal(top, "y")});
+        shown.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
+      }],
+    },
+  }, [[view.left, view.right], [null, null]], height, show);
+
+  // The wheel alone scrolls the page; with Ctrl (a pinch on a touch pad) it zooms about the pointer.
+  plot.over.addEventListener("wheel", event => {
+    if (!event.ctrlKey) return;
+    event.preventDefault();
+    const factor = Math.exp(Math.sign(event.deltaY) * 0.2);
+    const {left, top} = plot.over.getBoundingClientRect();
+    const X = plot.posToVal(event.clientX - left, "x");
+    const Y = plot.posToVal(event.clientY - top, "y");
+    zoom(plot, {left: X + (view.left - X) * factor, right: X + (view.right - X) * factor,
+                low: Y + (view.low - Y) * factor, high: Y + (view.high - Y) * factor});
+  }, {passive: false});
+  return plot;
+}
