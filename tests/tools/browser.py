@@ -136,9 +136,10 @@ class Browser:
         return self._call("POST", "/se/log", {"type": kind})
 
     def requests(self):
-        """The addresses of all requests since the last call."""
+        """The addresses of all requests since the last call, without those of the browser's own start page."""
         messages = [json.loads(entry["message"])["message"] for entry in self.log("performance")]
-        return [m["params"]["request"]["url"] for m in messages if m["method"] == "Network.requestWillBeSent"]
+        sent = [message["params"] for message in messages if message["method"] == "Network.requestWillBeSent"]
+        return [params["request"]["url"] for params in sent if not params["documentURL"].startswith("chrome:")]
 
     def devtools(self, command, **parameters):
         return self._call("POST", "/goog/cdp/execute", {"cmd": command, "params": parameters})

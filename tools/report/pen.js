@@ -74,8 +74,12 @@ function makePen(plot) {
       finish(path, style);
     },
 
-    // The vehicle's rectangle about (X, Y), and a wedge that points ahead.
+    // The vehicle's rectangle about (X, Y), and a wedge that points ahead; where this would be too small to see, a dot.
     vehicle(X, Y, psi, {front, rear, width}, style) {
+      if ((front + rear) * pixelsPerMetre < 9 * uPlot.pxRatio) {
+        this.dots([X], [Y], 4, {...style, color: color("paper"), fill: style.color});
+        return;
+      }
       const corner = (ahead, left) => at(X + ahead * Math.cos(psi) - left * Math.sin(psi),
                                          Y + ahead * Math.sin(psi) + left * Math.cos(psi));
       const path = new Path2D();

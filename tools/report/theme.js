@@ -11,8 +11,8 @@ function color(name) {
 // The name of the colour of drive number `i` of a section.
 const driveColor = i => `drive-${i % 6}`;
 
-// The first of several drives is drawn wider, so that it can be seen where another one covers it.
-const driveWidth = (i, drives) => i === 0 && drives.length > 1 ? 3.5 : 1.75;
+// Each of several drives is drawn narrower than the one before, so that those below can be seen where they coincide.
+const driveWidth = (i, drives) => 1.6 * (drives.length - i);
 
 // The colour at `share` (0 to 1) of the sequential ramp.
 function rampColor(share) {
