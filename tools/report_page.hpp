@@ -32,7 +32,8 @@
 //   "map"      "speeds": [m/s, ...], "shifts": [m, ...], both rising,
 //              "panels": [{"title", "cells": for each shift, for each speed: OUTCOME}, ...],
 //              "marks": [{"speed", "shift", "panel": index or null for all, "label"}, ...]
-//              OUTCOME: "clear" | "touch" | "infeasible" | "off-road" | "none"
+//              OUTCOME: "clear" | "marginal" | "touch" | "infeasible" | "off-road", by rising trouble, | "none"
+//              "marginal": the first step that was not solved lacked less than a centimetre
 //
 // Data of another form are told by the page, at its top and to the browser's log. When everything is drawn, the root
 // element has data-ready="1" and data-plots, the number of plots.

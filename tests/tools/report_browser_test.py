@@ -101,7 +101,7 @@ class ReportPage(unittest.TestCase):
         labels = self.texts(".legend .label")
         for drive in report["drives"].values():
             self.assertIn(drive["name"], labels)
-        for label in ("unsolved step", "obstacle and its margin", "infeasible"):
+        for label in ("unsolved step", "obstacle and its margin", "short by less than a centimetre", "infeasible"):
             self.assertIn(label, labels)
         self.assertIn("N = 8, 14 of 239 steps unsolved", self.texts(".legend .detail"))
         self.assertEqual(self.texts("th"), ["quantity", "controller", "paper", "here"])
@@ -175,6 +175,19 @@ class ReportPage(unittest.TestCase):
         self.open()
         self.chromium.point("section:last-of-type figure:last-of-type .u-over", 0.99, 0.01)
         self.assertEqual(self.texts("section:last-of-type figure:last-of-type .readout"), ["20 m/s, 1.0 m: infeasible"])
+
+    def test_the_outcomes_of_the_map_rise_in_grey(self):
+        self.open()
+        for scheme, sign in (("light", -1), ("dark", 1)):
+            self.chromium.set_scheme(scheme)
+            greys = []
+            for outcome in ("clear", "marginal", "touch", "infeasible", "off-road"):
+                value = self.chromium.run("return getComputedStyle(document.documentElement)"
+                                          ".getPropertyValue('--' + arguments[0])", outcome)
+                red, green, blue = (int(value[i:i + 2], 16) for i in (1, 3, 5))
+                greys.append(0.30 * red + 0.59 * green + 0.11 * blue)
+            for before, after in zip(greys, greys[1:]):
+                self.assertGreater(sign * (after - before), 20, scheme)
 
     def test_nothing_stands_out_of_the_window(self):
         self.open()

@@ -73,7 +73,8 @@ def drive(key, name, evasion, wobble, controller="lpv"):
 
 def outcome(speed, shift, strength):
     trouble = speed * shift / strength
-    return "clear" if trouble < 4 else "touch" if trouble < 7 else "infeasible" if trouble < 13 else "off-road"
+    ends = {"clear": 4, "marginal": 5, "touch": 7, "infeasible": 13, "off-road": math.inf}
+    return next(name for name, end in ends.items() if trouble < end)
 
 
 def report():

@@ -4,6 +4,7 @@
 // that neither hue nor colour is needed to tell them apart.
 const outcomes = {
   clear: {label: "clear", sign: null},
+  marginal: {label: "short by less than a centimetre", sign: "slash"},
   touch: {label: "feasible, obstacle touched", sign: "ring"},
   infeasible: {label: "infeasible", sign: "cross"},
   "off-road": {label: "off the road", sign: "bar"},
@@ -33,6 +34,7 @@ function drawSign(ctx, sign, ink, x, y, r) {
     path.moveTo(x + ends[0] * r, y + ends[1] * r);
     path.lineTo(x + ends[2] * r, y + ends[3] * r);
   };
+  if (sign === "slash") stroke(-1, 1, 1, -1);
   if (sign === "cross") stroke(-1, -1, 1, 1), stroke(-1, 1, 1, -1);
   if (sign === "bar") stroke(-1, 0, 1, 0);
   ctx.strokeStyle = ink;
