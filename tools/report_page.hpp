@@ -26,7 +26,8 @@
 //   "text"     nothing more
 //   "figures"  "items": [{"label", "value", "verdict": "good" | "bad" | ""}, ...]   tiles
 //   "table"    "columns": ["...", ...], "rows": [[CELL, ...], ...], "note"
-//              CELL: "..." or {"text", "verdict"}. A column of numbers is aligned right
+//              CELL: "..." or {"text", "verdict"}. A column of numbers is aligned right; where
+//              rows one after the other have the same first cell, this is shown once
 //   "drives"   "drives": [KEY, ...]   overlaid: the plane, and seven plots over time (without scheduling four)
 //   "fans"     "fans": [{"title", "drive": KEY, "from": k, "to": k}, ...]   side by side the plans of steps from..to
 //   "map"      "speeds": [m/s, ...], "shifts": [m, ...], both rising,

@@ -107,6 +107,8 @@ class ReportPage(unittest.TestCase):
         self.assertEqual(self.texts("th"), ["quantity", "controller", "paper", "here"])
         self.assertEqual(self.texts("td.bad"), ["✗14", "✗1"])
         self.assertEqual(self.texts("th.number"), ["paper", "here"])
+        self.assertEqual(self.texts("tbody td:first-child[rowspan]"), ["infeasible steps", "clearance", "mean solve time"])
+        self.assertEqual(self.texts("tbody tr:last-child .number"), ["0", "✗1", "0.10 m", "✓0.08 m", "–", "9 310 µs"])
         self.assertEqual(self.texts(".tile dd.good"), ["✓0.082 m", "✓0.71 radii"])
         captions = self.texts("figcaption .name")
         for title, times in (("Driven paths", 2), ("Steering angle", 2), ("Scheduling error", 1), ("Trust region", 1),

@@ -6,6 +6,9 @@ function element(name, attributes, ...children) {
   return made;
 }
 
+// Running text whose numbers stay on a line with what follows them, mostly their unit.
+const unbroken = text => text.replaceAll(" = ", "\u00a0=\u00a0").replace(/(\d) (?=\S{1,5}(\s|$))/g, "$1\u00a0");
+
 // A legend: [{swatch: Element, label, detail}].
 function legend(items) {
   const list = element("ul", {class: "legend"});

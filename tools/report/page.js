@@ -5,7 +5,7 @@ const sectionBuilders = {
 
 function addSection(report, section, index) {
   const heading = section.title === "" ? [] : [element("h2", {}, section.title)];
-  const paragraphs = section.paragraphs.map(text => element("p", {}, text));
+  const paragraphs = section.paragraphs.map(text => element("p", {}, unbroken(text)));
   const body = element("section", section.title === "" ? {class: "untitled"} : {}, ...heading, ...paragraphs);
   document.querySelector("main").append(body);
   sectionBuilders[section.type](report, section, body, index);
