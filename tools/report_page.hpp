@@ -28,8 +28,9 @@
 //   "table"    "columns": ["...", ...], "rows": [[CELL, ...], ...], "note"
 //              CELL: "..." or {"text", "verdict"}. A column of numbers is aligned right; where
 //              rows one after the other have the same first cell, this is shown once
-//   "drives"   "drives": [KEY, ...]   overlaid: the plane, and seven plots over time (without scheduling four)
-//   "fans"     "fans": [{"title", "drive": KEY, "from": k, "to": k}, ...]   side by side the plans of steps from..to
+//   "drives"   "drives": [KEY, ...]   overlaid: the plane, once more at each obstacle, and seven plots over time
+//              (without scheduling four). Obstacles of several drives that are alike are one
+//   "fans"     "fans": [{"title", "drive": KEY, "from": k, "to": k}, ...]   the plans of steps from..to
 //   "map"      "speeds": [m/s, ...], "shifts": [m, ...], both rising,
 //              "panels": [{"title", "cells": for each shift, for each speed: OUTCOME}, ...],
 //              "marks": [{"speed", "shift", "panel": index or null for all, "label"}, ...]

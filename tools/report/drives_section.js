@@ -1,4 +1,5 @@
-// A section of type "drives": the plane above, the quantities over time below, one cursor for all.
+// A section of type "drives": the plane above, once more at each obstacle, the quantities over time below, one cursor
+// for all.
 
 // The vehicles at the cursor's time `t`, each with its open-loop prediction; without a cursor, where each drive comes
 // nearest to each obstacle.
@@ -9,7 +10,7 @@ function drawVehicles(pen, drives, t) {
     for (const k of new Set(steps)) {
       if (k === null || !hasPose(drive, k)) continue;
       const {X, Y, psi} = drive.series;
-      pen.vehicle(X[k], Y[k], psi[k], drive.outline, {color: own, width: 1.25});
+      pen.vehicle(X[k], Y[k], psi[k], drive.outline, {color: own, width: 0.75 * driveWidth(i, drives)});
       const plan = t === null ? null : planOf(drive, k);
       if (plan) drawPlan(pen, plan, own, color("paper"));
     }
@@ -53,39 +54,59 @@ function drivesLegend(drives) {
     `<rect width="14" height="2.5" x="1" fill="var(--bad)"/>` +
     `<path d="M20 3.5L27 10.5M20 10.5L27 3.5" stroke="var(--bad)" stroke-width="1.75"/>`);
   const planned = drives.some(drive => drive.plans?.k.length > 0);
+  const obstacles = drives.some(drive => drive.obstacles.length > 0);
   const failed = drives.some(drive => drive.series.solved.includes(0));
   return legend([
     ...items,
-    ...roadLegend(),
-    {swatch: vehicle, label: "vehicle at the cursor, or nearest to an obstacle"},
+    ...roadLegend(drives),
+    {swatch: vehicle, label: `vehicle at the cursor${obstacles ? ", or nearest to an obstacle" : ""}`},
     ...(planned ? [{swatch: plan, label: "open-loop prediction at the cursor"}] : []),
     ...(failed ? [{swatch: unsolved, label: "unsolved step"}] : []),
   ]);
 }
 
-// The plot is as high as the drives need at its width, within what can be looked at.
-function planeHeight(box) {
-  const aspect = (box.high - box.low) / (box.right - box.left);
-  return width => Math.round(Math.min(560, Math.max(180, (width - roomAcross) * aspect)) + roomDown);
+// What of the plane is shown about an obstacle: it, and the drives as far as 14 m from it, a swerve at city speed.
+function boxAtObstacle(obstacle, drives) {
+  const paths = drives.map(drive => {
+    const {X, Y} = placedAt(obstacle, drive, closestSample(drive, obstacle));
+    const near = (x, k) => Math.hypot(x - X, drive.series.Y[k] - Y) < 14;
+    return {X: drive.series.X.map((x, k) => near(x, k) ? x : null), Y: drive.series.Y};
+  });
+  return boxAbout([...paths, ...drives.map(drive => extentOf(obstacle, drive))], 1.5);
+}
+
+// The planes of a section: {title, hint, box}, first that of the whole drives, then one for each obstacle.
+function planesOf(drives) {
+  const obstacles = drives.flatMap(drive => drive.obstacles.map(obstacle => [JSON.stringify(obstacle), obstacle]));
+  const extents = drives.flatMap(drive => drive.obstacles.map(obstacle => extentOf(obstacle, drive)));
+  return [
+    {title: "Driven paths", hint: xyHint, box: boxAbout([...drives.map(drive => drive.series), ...extents], 6)},
+    ...[...new Map(obstacles).values()].map(obstacle =>
+      ({title: `At obstacle ${obstacle.id}`, hint: "", box: boxAtObstacle(obstacle, drives)})),
+  ];
 }
 
 function addDrives(report, section, body, index) {
   const drives = section.drives.map(key => report.drives[key]);
-  const xy = plotFigure("Driven paths", xyHint);
+  const planes = planesOf(drives);
+  const [whole, ...near] = planes.map(({title, hint}) => plotFigure(title, hint));
   const shown = quantities.filter(({scheduling}) => !scheduling || drives.some(schedules));
   const frames = shown.map(({title, reference, scheduling}) => {
     const frame = plotFigure(title + (reference ? ", reference dotted" : ""));
     if (scheduling) frame.figure.classList.add("third");
     return frame;
   });
-  body.append(drivesLegend(drives), xy.figure, element("div", {class: "plots"}, ...frames.map(frame => frame.figure)));
+  body.append(drivesLegend(drives), whole.figure,
+              element("div", {class: "panels"}, ...near.map(frame => frame.figure)),
+              element("div", {class: "plots"}, ...frames.map(frame => frame.figure)));
 
   let time = null;
-  const lines = drives.map(drive => drive.series);
-  const home = boxAbout([...lines, extentOf(drives)], 6);
-  const plane = mountXyPlot(xy, home, planeHeight(home), pen => drawDrives(pen, report, drives, time));
+  const mounted = [whole, ...near].map((frame, i) => {
+    const {box} = planes[i];
+    return mountXyPlot(frame, box, heightFor(box, 560), pen => drawDrives(pen, report, drives, time));
+  });
 
-  // Every plot of the section tells the cursor's time; the plane is drawn once a frame.
+  // Every plot of the section tells the cursor's time; the planes are drawn once a frame.
   let due = false;
   const moved = t => {
     if (t === time) return;
@@ -94,8 +115,8 @@ function addDrives(report, section, body, index) {
     due = true;
     requestAnimationFrame(() => {
       due = false;
-      plane.redraw(false, false);
-      xy.readout.textContent = time === null ? "" : `t = ${number(time, 2)} s`;
+      for (const plane of mounted) plane.redraw(false, false);
+      whole.readout.textContent = time === null ? "" : `t = ${number(time, 2)} s`;
     });
   };
   const times = drives.flatMap(({series, t_s}) => [series.t[0], series.t.at(-1) + t_s]);

@@ -1,11 +1,12 @@
-// A section of type "fans": side by side, the open-loop predictions of consecutive steps.
+// A section of type "fans": side by side, or below one another where they are wide, the open-loop
+// predictions of consecutive steps.
 
 function addFans(report, section, body) {
   const ramp = element("span", {class: "ramp"});
   body.append(legend([
     {swatch: ramp, label: "open-loop predictions, first to last step"},
     {swatch: lineSwatch("ink", {width: 1.5}), label: "driven path"},
-    ...roadLegend(),
+    ...roadLegend(section.fans.map(fan => report.drives[fan.drive])),
   ]));
   const frames = section.fans.map(({title}) => plotFigure(title));
   body.append(element("div", {class: "panels"}, ...frames.map(frame => frame.figure)));
@@ -17,12 +18,13 @@ function mountFan(frame, report, {drive: key, from, to}) {
   const steps = (drive.plans?.k ?? []).filter(k => k >= from && k <= to);
   const plans = steps.map(k => planOf(drive, k)).filter(plan => plan !== null);
   const name = frame.figure.querySelector(".name");
-  const hint = plans.length === 0 ? "no predictions of these steps" : `steps ${from} to ${to}`;
+  const hint = plans.length === 0 ? "no predictions of these steps" : `${plans.length} of steps ${from}–${to}`;
   name.append(element("span", {class: "hint"}, ` – ${hint}`));
 
   const inView = {X: drive.series.X.slice(from, to + 1), Y: drive.series.Y.slice(from, to + 1)};
-  const home = boxAbout([...plans, inView], 1.5);
-  mountXyPlot(frame, home, width => Math.round(width * 0.72), pen => {
+  const home = boxAbout([...plans, inView], 0.6);
+  if (isWide(home)) frame.figure.classList.add("wide");
+  mountXyPlot(frame, home, heightFor(home, 680), pen => {
     drawRoad(pen, report.roads[drive.road]);
     drawObstacles(pen, [drive], closestSample);
     pen.line(drive.series.X, drive.series.Y, {color: color("ink"), width: 1.5});

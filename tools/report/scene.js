@@ -20,6 +20,9 @@ const hasPose = ({series}, k) => series.X[k] != null && series.Y[k] != null && s
 const obstacleAt = (obstacle, t) =>
   ({...obstacle, X: obstacle.X + obstacle.velocity_X * t, Y: obstacle.Y + obstacle.velocity_Y * t});
 
+// The obstacle where it is at sample `k` of the drive, or at the start where there is none.
+const placedAt = (obstacle, {series}, k) => obstacleAt(obstacle, k === null ? 0 : series.t[k]);
+
 // The sample at which the drive comes nearest to the obstacle's centre; null if it has no pose at all.
 function closestSample(drive, obstacle) {
   let best = null;
@@ -59,8 +62,7 @@ function drawObstacles(pen, drives, sample) {
   const drawn = new Set();
   for (const drive of drives) {
     for (const obstacle of drive.obstacles) {
-      const k = sample(drive, obstacle);
-      const placed = obstacleAt(obstacle, k === null ? 0 : drive.series.t[k]);
+      const placed = placedAt(obstacle, drive, sample(drive, obstacle));
       const key = JSON.stringify(placed);
       if (!drawn.has(key)) drawObstacle(pen, placed);
       drawn.add(key);
@@ -70,23 +72,19 @@ function drawObstacles(pen, drives, sample) {
 
 const roadsOf = (report, drives) => [...new Set(drives.map(drive => drive.road))].map(key => report.roads[key]);
 
-// The points of the obstacles' margins, as a line for boxAbout().
-function extentOf(drives) {
-  const corners = drives.flatMap(drive => drive.obstacles.flatMap(obstacle => {
-    const k = closestSample(drive, obstacle);
-    const {X, Y, r_x, r_y, margin} = obstacleAt(obstacle, k === null ? 0 : drive.series.t[k]);
-    const radius = Math.max(r_x, r_y) + margin;
-    return [{X: X - radius, Y: Y - radius}, {X: X + radius, Y: Y + radius}];
-  }));
-  return {X: corners.map(corner => corner.X), Y: corners.map(corner => corner.Y)};
+// The points of the obstacle's margin where `drive` comes nearest to it, as a line for boxAbout().
+function extentOf(obstacle, drive) {
+  const {X, Y, r_x, r_y, margin} = placedAt(obstacle, drive, closestSample(drive, obstacle));
+  const radius = Math.max(r_x, r_y) + margin;
+  return {X: [X - radius, X + radius], Y: [Y - radius, Y + radius]};
 }
 
-const roadLegend = () => [
+const roadLegend = drives => [
   {swatch: lineSwatch("road", {width: 2}), label: "road edges"},
   {swatch: lineSwatch("road", {width: 1.2, dash: "6 4"}), label: "reference"},
-  {
+  ...(drives.some(drive => drive.obstacles.length > 0) ? [{
     swatch: swatch(`<ellipse cx="15" cy="7" rx="8" ry="4" fill="var(--obstacle)" stroke="var(--obstacle-edge)"/>` +
       `<ellipse cx="15" cy="7" rx="12" ry="6.4" fill="none" stroke="var(--obstacle-edge)" stroke-dasharray="3 2"/>`),
     label: "obstacle and its margin",
-  },
+  }] : []),
 ];

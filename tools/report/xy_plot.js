@@ -28,6 +28,14 @@ function filling(box, across, down) {
   return {left: X - halfWidth, right: X + halfWidth, low: Y - halfHeight, high: Y + halfHeight};
 }
 
+const isWide = box => box.right - box.left > box.high - box.low;
+
+// The height of a plot, by its width: as much as the box needs there, within what can be looked at.
+function heightFor(box, most) {
+  const aspect = (box.high - box.low) / (box.right - box.left);
+  return width => Math.round(Math.min(most, Math.max(180, (width - roomAcross) * aspect)) + roomDown);
+}
+
 // Mounts a plot that shows the box `home`; `draw(pen)` draws it. `height(width)` of the plot in CSS pixels.
 function mountXyPlot(frame, home, height, draw) {
   let box = home;   // what must be seen
