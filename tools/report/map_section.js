@@ -107,7 +107,7 @@ function mountMap(frame, {speeds, shifts}, {cells}, marks) {
     border: {show: false},
   });
   const height = width => {
-    const cell = Math.min(40, Math.max(18, (width - roomAcross) / speeds.length));
+    const cell = Math.min(30, Math.max(18, (width - roomAcross) / speeds.length));
     return Math.round(cell * shifts.length + roomDown);
   };
   mountPlot(frame, {

@@ -133,7 +133,7 @@ function mountTimePlot(frame, quantity, drives, {sync, span, moved}) {
   const yAxis = log
     ? axis("left", quantity.axis, {splits: (plot, index, min, max) => logTicks(min, max),
                                    filter: (plot, splits) => splits, values: logLabels})
-    : axis("left", quantity.axis, {space: 34});
+    : axis("left", quantity.axis, {space: 34, ...(stepped ? {incrs: [1, 2, 5, 10, 20, 50]} : {})});
 
   mountPlot(frame, {
     scales: {
