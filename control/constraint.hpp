@@ -23,7 +23,7 @@ struct Constraint {
 struct ConstraintViolation {
   Constraint constraint;
   double amount =
-      0.0;  // in the constraint's unit, > 0; of an NMPC's obstacle in that of (eq:NMPC_obs_cons), 1
+      0.0;  // > 0, in the unit of what is constrained; of road and obstacle [m]; the largest number of all, whatever its unit
 };
 
 }  // namespace control

@@ -152,11 +152,15 @@ std::optional<ConstraintViolation> LpvMpc::Unsatisfied() const {
     return constraint.kind == ConstraintKind::kState || constraint.kind == ConstraintKind::kRoad ||
            constraint.kind == ConstraintKind::kObstacle;
   };
+  // Trust-region rows are soft already, and have no name of their own.
+  const auto gives_way = [&](std::size_t i, std::size_t j) {
+    return !qp_.stages[i].rows[j].soft() && holds_state(constraints_[i][j]);
+  };
   OcpQp<8, 2> elastic = qp_;
   for (std::size_t i = 0; i < elastic.stages.size(); ++i) {
     auto& stage = elastic.stages[i];
     for (std::size_t j = 0; j < Index(stage.row_count); ++j) {
-      if (!stage.rows[j].soft() && holds_state(constraints_[i][j])) stage.rows[j].rho = kPenalty;
+      if (gives_way(i, j)) stage.rows[j].rho = kPenalty;
     }
   }
   OcpQpSolver<8, 2> solver(settings_.horizon, settings_.qp);
@@ -165,11 +169,12 @@ std::optional<ConstraintViolation> LpvMpc::Unsatisfied() const {
   for (std::size_t i = 0; i < elastic.stages.size(); ++i) {
     for (std::size_t j = 0; j < Index(elastic.stages[i].row_count); ++j) {
       const double slack = solver.solution().stages[i].slack[j];
-      if (elastic.stages[i].rows[j].rho == kPenalty && slack > largest.amount) {
+      if (gives_way(i, j) && slack > largest.amount) {
         largest = {.constraint = constraints_[i][j], .amount = slack};
       }
     }
   }
+  if (!(largest.amount > settings_.qp.tolerance)) return std::nullopt;
   return largest;
 }
 

@@ -133,13 +133,16 @@ class Nmpc::Solver {
     bool set = options->SetIntegerValue("print_level", 0);
     set &= options->SetStringValue("sb", "yes");
     set &= options->SetStringValue("linear_solver", "mumps");
+    // Ten times the memory that is needed, as by default, takes time to get.
+    set &= options->SetIntegerValue("mumps_mem_percent", 100);
     set &= options->SetNumericValue("tol", settings.tolerance);
     set &= options->SetIntegerValue("acceptable_iter", 0);  // solved to the tolerance or not solved
     set &= options->SetIntegerValue("max_iter", settings.max_iterations);
     set &= options->SetNumericValue("max_cpu_time", settings.max_cpu_time);
     set &= options->SetNumericValue("warm_start_bound_push", 1e-6);
     set &= options->SetNumericValue("warm_start_mult_bound_push", 1e-6);
-    if (!set || ipopt_->Initialize() != Ipopt::Solve_Succeeded) {
+    // "": an ipopt.opt that happens to lie in the working directory has no say.
+    if (!set || ipopt_->Initialize("") != Ipopt::Solve_Succeeded) {
       throw std::runtime_error("Ipopt refuses its options: is it built with MUMPS?");
     }
   }
@@ -170,7 +173,9 @@ class Nmpc::Solver {
 
   [[nodiscard]] std::optional<ConstraintViolation> Unsatisfied() const {
     if (last_.size() != Size(problem_.variables())) return std::nullopt;
-    return problem_.LargestViolation(problem_.Driven(last_));
+    const ConstraintViolation largest = problem_.LargestViolation(problem_.Driven(last_));
+    if (!(largest.amount > settings_.tolerance)) return std::nullopt;
+    return largest;
   }
 
  private:

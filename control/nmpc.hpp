@@ -20,9 +20,9 @@
 namespace control {
 
 struct NmpcSettings : MpcSettings {
-  double tolerance = 1e-4;  // of Ipopt (paper, Section Results)
-  int max_iterations = 200;
-  double max_cpu_time = 0.5;  // of one step [s]
+  double tolerance = 1e-4;  // of Ipopt (paper, Section Results); leaves up to 5e-3 in the input
+  int max_iterations = 100;
+  double max_cpu_time = 0.25;  // of one step [s]
 };
 
 class Nmpc final : public Controller {

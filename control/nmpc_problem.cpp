@@ -74,6 +74,7 @@ void NmpcProblem::Set(const ControllerInput& input) {
                                 obstacle.r_y + settings_.obstacle_margin);
     ellipses_.push_back({.centre = {obstacle.X, obstacle.Y},
                          .M = axes * radii.cwiseAbs2().cwiseInverse().asDiagonal() * axes.transpose(),
+                         .smaller_semi_axis = radii.minCoeff(),
                          .id = obstacle.id});
   }
   if (resized) MakePatterns();
@@ -250,7 +251,13 @@ ConstraintViolation NmpcProblem::LargestViolation(std::span<const double> x) con
   std::vector<double> g(Index(rows()));
   Rows(x, g);
   for (int row = 0; row < rows(); ++row) {
-    raise(g[Index(row)], row_bounds_.lo[Index(row)], row_bounds_.hi[Index(row)], RowConstraint(row));
+    const Constraint constraint = RowConstraint(row);
+    if (constraint.kind == ConstraintKind::kObstacle) {
+      const double r = ellipses_[Index(row % StepRows() - kObstacleRow)].smaller_semi_axis;
+      raise(r * std::sqrt(g[Index(row)]), r, kNone, constraint);
+    } else {
+      raise(g[Index(row)], row_bounds_.lo[Index(row)], row_bounds_.hi[Index(row)], constraint);
+    }
   }
   for (int k = 0; k < variables(); ++k) {
     const int i = k / kStepVariables, j = k % kStepVariables;

@@ -69,13 +69,14 @@ class NmpcProblem {
   [[nodiscard]] State Next(const State& z, const Input& u) const;
   // The inputs of x with the states that they lead to.
   [[nodiscard]] std::vector<double> Driven(std::span<const double> x) const;
-  // The constraint that x violates most.
+  // The constraint that x violates most; the depth in an ellipse is measured as in a circle of its smaller semi-axis.
   [[nodiscard]] ConstraintViolation LargestViolation(std::span<const double> x) const;
 
  private:
   struct Ellipse {
     Eigen::Vector2d centre;
     Eigen::Matrix2d M;  // (p − centre)ᵀ M (p − centre) = 1 on the edge
+    double smaller_semi_axis;
     int id;
   };
 

@@ -196,7 +196,7 @@ TEST_F(NmpcProblemTest, ReferenceAtRestOnItselfViolatesNothingButWhatStandsInIts
   EXPECT_EQ(obstacle.constraint.kind, ConstraintKind::kObstacle);
   EXPECT_EQ(obstacle.constraint.index, 3);
   EXPECT_EQ(obstacle.constraint.step, 4);
-  EXPECT_NEAR(obstacle.amount, 1.0, 1e-9);
+  EXPECT_NEAR(obstacle.amount, 1.0 + settings_.obstacle_margin, 1e-9);
 }
 
 }  // namespace

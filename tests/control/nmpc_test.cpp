@@ -110,6 +110,33 @@ TEST(Nmpc, ValueThatIsNotFiniteIsANumericalFailure) {
   EXPECT_EQ(loop.Ask().status, SolverStatus::kSolved);
 }
 
+// The last solution, shifted, is nearly the next one.
+TEST(Nmpc, WarmStartSavesIterations) {
+  const auto iterations = [](bool warm) {
+    Nmpc nmpc(VehicleParameters{}, {});
+    ClosedLoop loop(nmpc, testing::PathOf(300, 12.0, [](int k) { return 0.01 * std::sin(0.05 * k); }));
+    int sum = 0;
+    while (loop.k() < 100) {
+      if (!warm) nmpc.Reset();
+      const Plan& plan = loop.Ask();
+      EXPECT_EQ(plan.status, SolverStatus::kSolved);
+      sum += plan.iterations;
+      loop.Drive(plan);
+    }
+    return sum;
+  };
+  EXPECT_LT(2 * iterations(true), iterations(false));
+}
+
+TEST(Nmpc, LimitOfTimeIsToldAsSuch) {
+  NmpcSettings settings;
+  settings.max_cpu_time = 1e-6;
+  Nmpc nmpc(VehicleParameters{}, settings);
+  ClosedLoop loop(nmpc, StraightPath(100, 12.0));
+  loop.z()[kY] = 0.5;
+  EXPECT_EQ(loop.Ask().status, SolverStatus::kIterationLimit);
+}
+
 TEST(Nmpc, LimitOfIterationsIsToldAsSuch) {
   NmpcSettings settings;
   settings.max_iterations = 1;
