@@ -11,13 +11,6 @@
 namespace lpvmpcd {
 namespace {
 
-dbc::VehicleBus OpenBus(const std::filesystem::path& file) {
-  if (file.empty()) {
-    return {};
-  }
-  return dbc::VehicleBus(dbc::Parse(config::ReadTextFile(file), file.string()));
-}
-
 std::unique_ptr<control::Controller> MakeController(const Config& config) {
   if (config.controller == ControllerKind::kNmpc) {
     // Ipopt allocates and has no bound on its time.
@@ -29,16 +22,19 @@ std::unique_ptr<control::Controller> MakeController(const Config& config) {
 
 }  // namespace
 
-Assembly::Assembly(const Config& config, std::function<Time()> stopwatch)
-    : Assembly(config, std::move(stopwatch), MakeController(config)) {}
+dbc::VehicleBus OpenBus(const Config& config) {
+  if (config.dbc.empty()) {
+    return {};
+  }
+  return dbc::VehicleBus(dbc::Parse(config::ReadTextFile(config.dbc), config.dbc.string()));
+}
 
-Assembly::Assembly(const Config& config, std::function<Time()> stopwatch,
-                   std::unique_ptr<control::Controller> controller)
-    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), std::move(controller)) {}
+Assembly::Assembly(const Config& config, std::function<Time()> stopwatch)
+    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), MakeController(config)) {}
 
 Assembly::Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch,
                    std::unique_ptr<control::Controller> controller)
-    : bus_(OpenBus(config.dbc)),
+    : bus_(OpenBus(config)),
       reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
       road_(route.road),
       controller_(std::move(controller)),

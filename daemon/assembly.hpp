@@ -14,14 +14,17 @@
 
 namespace lpvmpcd {
 
+// The bus of the configuration's DBC file, or the one built in. Throws as Assembly does.
+[[nodiscard]] dbc::VehicleBus OpenBus(const Config& config);
+
 class Assembly {
  public:
   // Throws std::runtime_error, one line: a file of the configuration is missing or wrong
   // (config::ConfigError, dbc::DbcError with file and line), the route is shorter than a horizon, or the controller
   // is none for a daemon.
   Assembly(const Config& config, std::function<Time()> stopwatch);
-  // With a controller of the caller's, whose horizon is the configuration's.
-  Assembly(const Config& config, std::function<Time()> stopwatch,
+  // With a route of the caller's, and a controller whose horizon is the configuration's.
+  Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch,
            std::unique_ptr<control::Controller> controller);
 
   Assembly(const Assembly&) = delete;  // the loop points into it
@@ -33,9 +36,6 @@ class Assembly {
   [[nodiscard]] const control::RoadBounds& road() const { return road_; }
 
  private:
-  Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch,
-           std::unique_ptr<control::Controller> controller);
-
   dbc::VehicleBus bus_;
   control::Reference reference_;
   control::RoadBounds road_;

@@ -50,8 +50,8 @@ int main(int argc, char** argv) {
   }
   if (check) {
     std::cout << "interface " << config->service.interface << ", controller "
-              << lpvmpcd::ControllerName(config->controller) << ", horizon " << config->mpc.horizon << ", period "
-              << config->mpc.t_s << " s, route " << config->route.string() << " with "
+              << lpvmpcd::ControllerName(config->controller) << ", horizon " << config->mpc.horizon
+              << ", period " << config->mpc.t_s << " s, route " << config->route.string() << " with "
               << assembly->reference().size() << " points" << std::endl;
     return std::cout ? 0 : Fail(std::runtime_error("cannot write to stdout"), kRunTimeError);
   }

@@ -147,32 +147,33 @@ Expectations ReadExpectations(const TomlTable& table) {
           .max_deadline_misses = count("max_deadline_misses")};
 }
 
-// On the route in steady cornering: the vehicle's velocity, not its axis, points along the road. Linear
-// single-track theory, as the vehicle's own tyres are at small slip.
 void ReadInitial(const TomlTable& table, Scenario& scenario) {
   const double along = table.NumberOr("along", 0.0, {0.0, scenario.route.length()}, "m");
   const double lateral = table.NumberOr("lateral", 0.0, kLateral, "m");
   const double heading = table.NumberOr("heading", 0.0, {-1.0, 1.0}, "rad");
-  const control::RoutePoint point = scenario.route.At(along);
-  const double speed = table.NumberOr("speed", point.speed, {0.0, 60.0}, "m/s");
+  const double speed = table.NumberOr("speed", scenario.route.At(along).speed, {0.0, 60.0}, "m/s");
+  scenario.PlaceVehicle(along, speed, lateral, heading);
+}
 
-  const control::VehicleParameters& v = scenario.plant.vehicle;
+}  // namespace
+
+// Linear single-track theory, as the vehicle's own tyres are at small slip.
+void Scenario::PlaceVehicle(double along, double speed, double lateral, double heading) {
+  const control::RoutePoint point = route.At(along);
+  const control::VehicleParameters& v = plant.vehicle;
   const double wheelbase = v.l_f + v.l_r;
   const double rear_slip = v.m * v.l_f * speed * speed * point.curvature / (2.0 * v.C_alpha_r * wheelbase);
   const double front_slip = v.m * v.l_r * speed * speed * point.curvature / (2.0 * v.C_alpha_f * wheelbase);
   const double sideslip = v.l_r * point.curvature - rear_slip;
 
-  control::State& z = scenario.initial;
-  z[control::kX] = point.X - lateral * std::sin(point.psi);
-  z[control::kY] = point.Y + lateral * std::cos(point.psi);
-  z[control::kUpsilon] = speed;
-  z[control::kNu] = speed * sideslip;
-  z[control::kPsi] = control::WrapAngle(point.psi - sideslip + heading);
-  z[control::kOmega] = speed * point.curvature;
-  scenario.initial_delta = wheelbase * point.curvature + front_slip - rear_slip;
+  initial[control::kX] = point.X - lateral * std::sin(point.psi);
+  initial[control::kY] = point.Y + lateral * std::cos(point.psi);
+  initial[control::kUpsilon] = speed;
+  initial[control::kNu] = speed * sideslip;
+  initial[control::kPsi] = control::WrapAngle(point.psi - sideslip + heading);
+  initial[control::kOmega] = speed * point.curvature;
+  initial_delta = wheelbase * point.curvature + front_slip - rear_slip;
 }
-
-}  // namespace
 
 Scenario LoadScenario(const std::filesystem::path& file) {
   const TomlTable table = TomlTable::Read(file);

@@ -96,6 +96,10 @@ struct Expectations {
 struct Scenario {
   Scenario(control::Route path, const control::RoadBounds& bounds) : route(std::move(path)), road(bounds) {}
 
+  // Sets `initial` and `initial_delta`: on the route at `along` [m] in steady cornering, so that the vehicle's
+  // velocity, not its axis, points along the road; then moved to the left by `lateral` [m] and turned by `heading`.
+  void PlaceVehicle(double along, double speed, double lateral = 0.0, double heading = 0.0);
+
   std::string name;
   std::string description;
   std::uint64_t seed = 1;

@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "config/route_file.hpp"
-#include "control/lpv_mpc.hpp"
 #include "control/reference.hpp"
 #include "daemon/config.hpp"
 #include "sim/percentile.hpp"
 #include "sim/plant.hpp"
 #include "sim/scenario.hpp"
 #include "sim/virtual_vehicle.hpp"
+#include "tools/make_controller.hpp"
 #include "tools/scenario_config.hpp"
 
 namespace tools {
@@ -29,18 +29,18 @@ struct Samples {
 // One drive of the plant with the controller, no frames: only the control step is timed.
 void Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config, const control::Reference& reference,
            const control::RoadBounds& road, Samples& samples) {
-  control::LpvMpc controller(config.vehicle, config.mpc);
+  const std::unique_ptr<control::Controller> controller = MakeController(config);
   sim::Plant plant(scenario.plant, reference[0]);
   control::Input u = control::Input::Zero();
   std::vector<control::State> window(static_cast<std::size_t>(config.mpc.horizon) + 1);
   for (int k = 0; k + config.mpc.horizon < reference.size(); ++k) {
     const auto start = std::chrono::steady_clock::now();
     reference.Window(k, window);
-    const control::Plan& plan = controller.Step({.z = plant.state(),
-                                                 .u_previous = u,
-                                                 .reference = window,
-                                                 .road = road,
-                                                 .obstacles = scenario.obstacles});
+    const control::Plan& plan = controller->Step({.z = plant.state(),
+                                                  .u_previous = u,
+                                                  .reference = window,
+                                                  .road = road,
+                                                  .obstacles = scenario.obstacles});
     const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
     samples.microseconds.push_back(elapsed.count());
     samples.iterations += plan.iterations;

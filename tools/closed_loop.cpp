@@ -16,6 +16,11 @@ namespace tools {
 
 sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
                              const ClosedLoopHooks& hooks) {
+  return DriveClosedLoop(scenario, config, config::LoadRoute(config.route), hooks);
+}
+
+sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
+                             const config::RouteFile& route, const ClosedLoopHooks& hooks) {
   if (config.loop.period != lpvmpcd::FromSeconds(sim::kCycleTime)) {
     throw std::invalid_argument(
         fmt::format("the configuration's cycle.period = {} must be {} s, the simulated vehicle's",
@@ -23,7 +28,7 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Confi
   }
   std::unique_ptr<control::Controller> law = MakeController(config);
   if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
-  lpvmpcd::Assembly controller(config, lpvmpcd::MonotonicNow, std::move(law));
+  lpvmpcd::Assembly controller(config, route, lpvmpcd::MonotonicNow, std::move(law));
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);
   for (can::Time now{}; !recorder.finished(); now += config.loop.period) {
@@ -37,7 +42,7 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Confi
       }
     }
     recorder.Record(vehicle);
-    if (hooks.cycle) hooks.cycle(recorder);
+    if (hooks.stop && hooks.stop()) break;
     vehicle.Advance();
   }
   return recorder.Result();

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "can/frame.hpp"
+#include "config/route_file.hpp"
 #include "daemon/config.hpp"
 #include "sim/scenario.hpp"
 #include "sim/summary.hpp"
@@ -16,15 +17,18 @@ namespace tools {
 struct ClosedLoopHooks {
   // Called with every frame of both sides, stamped with synthetic time.
   std::function<void(const can::Frame&)> frame = nullptr;
-  // Called after every cycle.
-  std::function<void(const sim::Recorder&)> cycle = nullptr;
   // Called after every step of the controller.
   std::function<void(const StepObservation&)> step = nullptr;
+  // Asked after every cycle: true ends the drive there.
+  std::function<bool()> stop = nullptr;
 };
 
 // Drives the scenario to its end. Throws one line, before anything is driven: std::runtime_error if a file of the
 // configuration is missing or wrong, std::invalid_argument if its period is not the vehicle's.
 [[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
                                            const ClosedLoopHooks& hooks = {});
+// With a route of the caller's instead of the configuration's file.
+[[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
+                                           const config::RouteFile& route, const ClosedLoopHooks& hooks = {});
 
 }  // namespace tools

@@ -1,15 +1,19 @@
 // lpvmpc: offline commands about the controller, a file each.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include "config/text_file.hpp"
 #include "tools/bench_step.hpp"
 #include "tools/decode.hpp"
+#include "tools/paper/paper.hpp"
+#include "tools/report.hpp"
 #include "tools/run.hpp"
 
 namespace {
@@ -58,8 +62,12 @@ int main(int argc, char** argv) {
   run_command->add_option("--scenario", run.scenario, "scenario in TOML; required");
   run_command->add_option("--config", run.config, "daemon's configuration, instead of the scenario's");
   run_command->add_option("--controller", run.controller,
-                          "lpv or lpv-standard, instead of the configuration's");
+                          "lpv, lpv-standard or nmpc, instead of the configuration's");
   run_command->add_option("--log", run.log, "write every frame to this candump log");
+  run_command
+      ->add_option("--out", run.out,
+                   "write candump.log, summary.json, drive.toml and report.html into this folder")
+      ->excludes("--log");
   run_command->add_flag("--json", run.json, "summary as JSON");
 
   std::string log = "-";
@@ -79,18 +87,50 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   step_command->add_flag("--json", bench.json, "figures as JSON");
 
+  tools::PaperOptions paper;
+  paper.scenarios = LPVMPC_DATA_DIR "/scenarios/paper";
+  paper.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CLI::App* paper_command =
+      app.add_subcommand("paper", "the paper's comparisons, and whether its claims hold");
+  paper_command->add_option("--out", paper.out,
+                            "write report.html, report.json and paper.json into this folder");
+  paper_command->add_flag("--map", paper.map,
+                          "sweep speed, sideways shift and horizon too: hundreds of drives");
+  paper_command->add_option("--jobs", paper.jobs, "processes that drive the map")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  paper_command->add_option("--repeat", paper.repeat, "drives of which each step's least time counts")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  paper_command->add_option("--scenarios", paper.scenarios, "folder with its scenarios")
+      ->capture_default_str();
+  paper_command->add_flag("--json", paper.json, "all figures as JSON");
+
+  tools::ReportOptions report;
+  CLI::App* report_command = app.add_subcommand("report", "a page about a run, for any browser");
+  report_command->add_option("RUN_DIR", report.run_dir, "folder of a drive or of lpvmpc paper; required");
+  report_command->add_option("-o,--output", report.output, "HTML file to write; required");
+
   try {
     try {
       app.parse(argc, argv);
-      if (app.get_subcommands().empty()) throw CLI::RequiredError("a command: run, decode or bench");
+      if (app.get_subcommands().empty())
+        throw CLI::RequiredError("a command: run, decode, bench, paper or report");
       if (bench_command->parsed() && !step_command->parsed())
         throw CLI::RequiredError("a command: bench step");
       RequireOption(*run_command, "--scenario");
+      RequireOption(*report_command, "RUN_DIR");
+      RequireOption(*report_command, "--output");
     } catch (const CLI::ParseError& error) {
       return error.get_exit_code() == 0 ? Finish(app.exit(error)) : Fail(error);
     }
     if (run_command->parsed()) return Finish(tools::Run(run, std::cout));
     if (decode_command->parsed()) return Decode(log);
+    if (paper_command->parsed()) return Finish(tools::Paper(paper, std::cout));
+    if (report_command->parsed()) {
+      tools::Report(report);
+      return 0;
+    }
     tools::BenchStep(bench, std::cout);
     return Finish(0);
   } catch (const std::exception& error) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "control/controller.hpp"
@@ -25,6 +26,9 @@ class ObservedController final : public control::Controller {
   [[nodiscard]] int horizon() const override { return controller_->horizon(); }
   [[nodiscard]] const control::Plan& Step(const control::ControllerInput& input) override;
   void Reset() override { controller_->Reset(); }
+  [[nodiscard]] std::optional<control::ConstraintViolation> Unsatisfied() const override {
+    return controller_->Unsatisfied();
+  }
 
  private:
   std::unique_ptr<control::Controller> controller_;

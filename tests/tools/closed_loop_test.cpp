@@ -37,6 +37,34 @@ TEST(ClosedLoop, StandardLpvmpcBecomesInfeasibleInTheSameScenario) {
   EXPECT_GT(DriveDemo("lpv-standard").summary.infeasible_steps, 0);
 }
 
+TEST(ClosedLoop, NmpcDrivesByTheSameFrames) {
+  sim::Scenario scenario = sim::LoadScenario(kDemo / "scenario.toml");
+  scenario.duration = 10.0;
+  lpvmpcd::Config config = lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml");
+  lpvmpcd::SelectController(config, "nmpc");
+  int steps = 0, solved = 0;
+  const sim::Summary summary = tools::DriveClosedLoop(
+      scenario, config, {.step = [&](const tools::StepObservation& observed) {
+        ++steps;
+        solved += static_cast<int>(observed.plan.status == control::SolverStatus::kSolved);
+        EXPECT_GT(observed.seconds, 0.0);
+      }});
+  EXPECT_TRUE(summary.completed);
+  EXPECT_EQ(summary.infeasible_steps, 0);
+  EXPECT_LT(summary.rms_lateral_error_m.value_or(1e9), 0.1);
+  EXPECT_GT(steps, 150);
+  EXPECT_EQ(solved, steps);
+}
+
+TEST(ClosedLoop, StopEndsTheDriveThere) {
+  int cycles = 0;
+  const sim::Summary summary = tools::DriveClosedLoop(sim::LoadScenario(kDemo / "scenario.toml"),
+                                                      lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml"),
+                                                      {.stop = [&] { return ++cycles == 50; }});
+  EXPECT_LE(summary.steps, 50);
+  EXPECT_FALSE(summary.completed);
+}
+
 TEST(ClosedLoop, SameScenarioGivesTheSameFramesButForTheTimeThatSolvingTook) {
   const dbc::VehicleBus bus;
   const std::uint32_t status = bus.Find("ControllerStatus")->id;

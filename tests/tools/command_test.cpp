@@ -43,9 +43,43 @@ TEST(Lpvmpc, UnknownOptionIsNotHiddenByWhatElseIsMissing) {
 }
 
 TEST(Lpvmpc, WhatIsRequiredIsNamed) {
-  ExpectOneLine({LPVMPC}, HasSubstr("run, decode or bench"));
+  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper or report"));
   ExpectOneLine({LPVMPC, "bench"}, HasSubstr("bench step"));
   ExpectOneLine({LPVMPC, "run"}, HasSubstr("--scenario"));
+  ExpectOneLine({LPVMPC, "report", "-o", "x.html"}, HasSubstr("RUN_DIR"));
+  ExpectOneLine({LPVMPC, "report", "x"}, HasSubstr("--output"));
+}
+
+TEST(Lpvmpc, FolderOfARunThatHoldsNoneIsNamed) {
+  const test_support::TempDir folder;
+  const std::string page = (folder.path() / "page.html").string();
+  ExpectOneLine({LPVMPC, "report", folder.path().string(), "-o", page}, HasSubstr("drive.toml"));
+  EXPECT_FALSE(std::filesystem::exists(page));
+}
+
+TEST(Lpvmpc, FolderThatCannotBeWrittenIsNamedBeforeAnythingIsDriven) {
+  const test_support::TempDir folder;
+  const std::string file = Write(folder, "file", "precious\n");
+  ExpectOneLine({LPVMPC, "paper", "--out", file}, HasSubstr(file));
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--out", file}, HasSubstr(file));
+  EXPECT_EQ(std::filesystem::file_size(file), 9u);
+}
+
+TEST(Lpvmpc, PapersScenariosThatAreMissingAreNamed) {
+  ExpectOneLine({LPVMPC, "paper", "--scenarios", "/nowhere"}, HasSubstr("/nowhere/feasibility/01.toml"));
+  ExpectOneLine({LPVMPC, "paper", "--repeat", "0"}, HasSubstr("--repeat"));
+}
+
+TEST(Lpvmpc, RunLeavesAFolderThatReportTakes) {
+  const test_support::TempDir folder;
+  const std::string run = (folder.path() / "run").string(), page = (folder.path() / "page.html").string();
+  EXPECT_EQ(test_support::Run({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--out", run}).status,
+            0);
+  const test_support::Outcome outcome = test_support::Run({LPVMPC, "report", run, "-o", page});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(std::filesystem::file_size(page), 100'000u);
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--out", run, "--log", page},
+                HasSubstr("--log"));
 }
 
 TEST(Lpvmpc, MissingScenarioIsNamed) {
@@ -157,6 +191,11 @@ TEST(Lpvmpcd, CheckConfigNamesTheFileAndTheLineOfAWrongValue) {
                                      "/route.toml\"\n[controller]\nhorizon = -3\n");
   ExpectOneLine({LPVMPCD, "--config", file, "--check-config"},
                 AllOf(HasSubstr(file + ":6:"), HasSubstr("horizon"), HasSubstr("-3"), HasSubstr("[")));
+}
+
+TEST(Lpvmpcd, NmpcIsRefusedWithItsReason) {
+  ExpectOneLine({LPVMPCD, "--config", kDemo + "/lpvmpcd.toml", "--controller", "nmpc", "--check-config"},
+                AllOf(HasSubstr("nmpc"), HasSubstr("lpv-standard")));
 }
 
 TEST(Lpvmpcd, CheckConfigAcceptsTheDemos) {

@@ -43,7 +43,7 @@ function drivesLegend(drives) {
     return {
       swatch: lineSwatch(driveColor(i), {width: driveWidth(i, drives)}),
       label: drive.name,
-      detail: `N = ${drive.horizon}, ${failed} of ${solved.length} steps unsolved`,
+      detail: `N = ${drive.horizon}, ${failed} steps unsolved`,
     };
   });
   const vehicle = swatch(

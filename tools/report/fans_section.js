@@ -18,7 +18,9 @@ function mountFan(frame, report, {drive: key, from, to}) {
   const steps = (drive.plans?.k ?? []).filter(k => k >= from && k <= to);
   const plans = steps.map(k => planOf(drive, k)).filter(plan => plan !== null);
   const name = frame.figure.querySelector(".name");
-  const hint = plans.length === 0 ? "no predictions of these steps" : `${plans.length} of steps ${from}–${to}`;
+  const {t} = drive.series;
+  const hint = plans.length === 0 ? "no predictions here"
+    : `${t[steps[0]].toFixed(2)} to ${t[steps.at(-1)].toFixed(2)} s`;
   name.append(element("span", {class: "hint"}, ` – ${hint}`));
 
   const inView = {X: drive.series.X.slice(from, to + 1), Y: drive.series.Y.slice(from, to + 1)};

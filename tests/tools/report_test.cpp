@@ -1,0 +1,163 @@
+#include "tools/report.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temp_dir.hpp"
+#include "tools/run.hpp"
+
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::filesystem::path kDemo = LPVMPC_SOURCE_DIR "/scenarios/demo";
+
+std::string Read(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A folder as `lpvmpc run --out` leaves it.
+class ReportTest : public testing::Test {
+ protected:
+  ReportTest() {
+    std::ostringstream out;
+    tools::RunOptions options;
+    options.scenario = kDemo / "scenario.toml";
+    options.out = run_;
+    EXPECT_EQ(tools::Run(options, out), 0);
+  }
+  void Write(const char* name, const std::string& text) const { std::ofstream(run_ / name) << text; }
+  // What the report says about the folder; empty if it was written.
+  [[nodiscard]] std::string Error() const {
+    std::filesystem::remove(page_);
+    try {
+      tools::Report({.run_dir = run_, .output = page_});
+    } catch (const std::exception& error) {
+      EXPECT_FALSE(std::filesystem::exists(page_));
+      return error.what();
+    }
+    EXPECT_TRUE(std::filesystem::exists(page_));
+    return "";
+  }
+  [[nodiscard]] nlohmann::json Data() const {
+    const std::string page = Read(page_);
+    const std::string begin = "<script type=\"application/json\"";
+    const std::size_t from = page.find('>', page.find(begin)) + 1;
+    return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  }
+
+  test_support::TempDir folder_;
+  const std::filesystem::path run_ = folder_.path() / "run";
+  const std::filesystem::path page_ = folder_.path() / "page.html";
+};
+
+TEST_F(ReportTest, PageOfADriveHoldsItsSeriesRoadAndResult) {
+  ASSERT_EQ(Error(), "");
+  const nlohmann::json data = Data();
+  EXPECT_EQ(data.at("title"), "demo");
+  const nlohmann::json& drive = data.at("drives").at("drive");
+  EXPECT_EQ(drive.at("controller"), "lpv");
+  EXPECT_EQ(drive.at("obstacles").size(), 3u);
+  const std::size_t samples = drive.at("series").at("t").size();
+  EXPECT_GT(samples, 1000u);
+  for (const auto& [name, series] : drive.at("series").items()) EXPECT_EQ(series.size(), samples) << name;
+  EXPECT_EQ(drive.at("plans").at("k").size(), drive.at("plans").at("dX").size());
+  EXPECT_GT(drive.at("plans").at("k").size(), 1000u);
+  EXPECT_GT(data.at("roads").at("road").at("left").at("X").size(), 300u);
+  std::vector<std::string> types;
+  for (const auto& section : data.at("sections")) types.push_back(section.at("type"));
+  EXPECT_EQ(types, (std::vector<std::string>{"figures", "drives", "fans"}));
+  EXPECT_LT(std::filesystem::file_size(page_), 600'000u) << "a few hundred kB are promised";
+}
+
+TEST_F(ReportTest, RunWritesTheSamePageAsReport) {
+  ASSERT_EQ(Error(), "");
+  EXPECT_EQ(Read(run_ / "report.html"), Read(page_));
+}
+
+TEST_F(ReportTest, ControllerOfTheDriveFileIsThatOfThePage) {
+  tools::WriteDriveFile(run_, kDemo / "scenario.toml", kDemo / "lpvmpcd.toml", "lpv-standard");
+  ASSERT_EQ(Error(), "");
+  EXPECT_EQ(Data().at("drives").at("drive").at("controller"), "lpv-standard");
+  tools::WriteDriveFile(run_, kDemo / "scenario.toml", kDemo / "lpvmpcd.toml", "pid");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("drive.toml:4"), HasSubstr("pid")));
+}
+
+TEST_F(ReportTest, WithoutASummaryThePageDoesWithoutItsSection) {
+  std::filesystem::remove(run_ / "summary.json");
+  ASSERT_EQ(Error(), "");
+  EXPECT_EQ(Data().at("sections").at(0).at("type"), "drives");
+}
+
+TEST_F(ReportTest, LastLineThatCandumpDidNotFinishIsPassedOver) {
+  const std::string log = Read(run_ / "candump.log");
+  Write("candump.log", log.substr(0, log.size() - 2));  // an odd number of digits
+  EXPECT_EQ(Error(), "");
+}
+
+TEST_F(ReportTest, WithoutPlansThereAreNoFans) {
+  std::istringstream log(Read(run_ / "candump.log"));
+  std::string kept, line;
+  while (std::getline(log, line)) {
+    if (line.find(" 212#") == std::string::npos) kept += line + '\n';  // PlannedHorizon
+  }
+  Write("candump.log", kept);
+  ASSERT_EQ(Error(), "");
+  EXPECT_EQ(Data().at("sections").size(), 2u);
+}
+
+TEST_F(ReportTest, RunPutsItsOwnPageOverThatOfAnotherRun) {
+  Write("report.json", R"({"title": "old", "sections": [], "roads": {}, "drives": {}, "subtitle": ""})");
+  std::ostringstream out;
+  tools::RunOptions options;
+  options.scenario = kDemo / "scenario.toml";
+  options.out = run_;
+  EXPECT_EQ(tools::Run(options, out), 0);
+  ASSERT_EQ(Error(), "");
+  EXPECT_EQ(Data().at("title"), "demo");
+}
+
+TEST_F(ReportTest, DataThatAreThereAreShownAsTheyAre) {
+  Write("report.json", R"({"title": "paper", "sections": [], "roads": {}, "drives": {}, "subtitle": ""})");
+  ASSERT_EQ(Error(), "");
+  EXPECT_EQ(Data().at("title"), "paper");
+}
+
+TEST_F(ReportTest, WhatIsMissingOrWrongIsNamedAndNoPageIsLeft) {
+  Write("summary.json", "{\"passed\": true");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("summary.json"), HasSubstr("line 1")));
+  Write("summary.json", "{\"passed\": true}");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("summary.json"), HasSubstr("completed")));
+  std::filesystem::remove(run_ / "summary.json");
+
+  Write("report.json", "[]");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("report.json"), HasSubstr("no data")));
+  std::filesystem::remove(run_ / "report.json");
+
+  Write("candump.log", "(0000000000.000000) vcan0 123#11\nnonsense\n");
+  EXPECT_THAT(Error(), HasSubstr("candump.log:2: "));
+  Write("candump.log", "(0000000000.000000) vcan0 123#11\n");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("candump.log"), HasSubstr("no state")));
+  std::filesystem::remove(run_ / "candump.log");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("candump.log"), HasSubstr("cannot be read")));
+
+  Write("drive.toml", "scenario = \"none.toml\"\nconfig = \"none.toml\"\n");
+  EXPECT_THAT(Error(), HasSubstr("none.toml"));
+  std::filesystem::remove(run_ / "drive.toml");
+  EXPECT_THAT(Error(), AllOf(HasSubstr("drive.toml"), HasSubstr("cannot be read")));
+}
+
+TEST_F(ReportTest, FileThatCannotBeWrittenIsNamed) {
+  EXPECT_THAT([&] { tools::Report({.run_dir = run_, .output = folder_.path() / "none" / "page.html"}); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("page.html"), HasSubstr("cannot be written"))));
+}
+
+}  // namespace

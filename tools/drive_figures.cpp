@@ -1,0 +1,120 @@
+#include "tools/drive_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string_view>
+
+namespace tools {
+namespace {
+
+using control::ConstraintKind;
+
+constexpr std::array kStateNames{"X", "Y", "upsilon", "nu", "psi", "omega"};
+constexpr std::array kStateUnits{"m", "m", "m/s", "m/s", "rad", "rad/s"};
+constexpr std::array kInputNames{"delta", "a"};
+constexpr std::array kInputUnits{"rad", "m/s^2"};
+
+// Of the inputs that were applied, seen as the next step's u_{k−1}.
+class Meter {
+ public:
+  Meter(const CostWeights& weights, double t_s) : weights_(weights), t_s_(t_s) {}
+
+  void Take(const StepObservation& observed) {
+    const control::Input& u = observed.input.u_previous;
+    if (!figures_.step_seconds.empty()) {
+      const control::Input rate = (u - u_last_) / t_s_;
+      squared_rate_ += rate.cwiseAbs2();
+      figures_.cost += weights_.R.dot(u.cwiseAbs2());
+    }
+    u_last_ = u;
+    const control::State error = observed.input.z - observed.input.reference.front();
+    figures_.cost += weights_.Q.dot(error.cwiseAbs2());
+    if (observed.plan.status != control::SolverStatus::kSolved && !figures_.first_failure) {
+      figures_.first_failure = {.step = static_cast<int>(figures_.step_seconds.size()),
+                                .status = observed.plan.status,
+                                .violation = observed.controller.Unsatisfied()};
+    }
+    figures_.step_seconds.push_back(observed.seconds);
+  }
+
+  [[nodiscard]] DriveFigures Result(const sim::Summary& summary) const {
+    DriveFigures figures = figures_;
+    figures.summary = summary;
+    const auto rates = static_cast<double>(std::max<std::size_t>(figures.step_seconds.size(), 2) - 1);
+    figures.rms_steering_rate = std::sqrt(squared_rate_[control::kDelta] / rates);
+    figures.rms_jerk = std::sqrt(squared_rate_[control::kAcceleration] / rates);
+    return figures;
+  }
+
+ private:
+  CostWeights weights_;
+  double t_s_;
+  control::Input u_last_ = control::Input::Zero();
+  control::Input squared_rate_ = control::Input::Zero();
+  DriveFigures figures_;
+};
+
+const char* NameOf(control::SolverStatus status) {
+  switch (status) {
+    case control::SolverStatus::kSolved:
+      return "solved";
+    case control::SolverStatus::kInfeasible:
+      return "infeasible";
+    case control::SolverStatus::kIterationLimit:
+      return "iteration limit";
+    case control::SolverStatus::kNumericalFailure:
+      break;
+  }
+  return "numerical failure";
+}
+
+}  // namespace
+
+DriveFigures MeasureDrive(const sim::Scenario& scenario, const lpvmpcd::Config& config,
+                          const config::RouteFile& route, const CostWeights& weights,
+                          const std::function<void(const can::Frame&)>& frame) {
+  Meter meter(weights, config.mpc.t_s);
+  const ClosedLoopHooks hooks{.frame = frame,
+                              .step = [&](const StepObservation& observed) { meter.Take(observed); }};
+  DriveFigures figures = meter.Result(DriveClosedLoop(scenario, config, route, hooks));
+  if (figures.step_seconds.empty())
+    throw std::runtime_error(scenario.name + ": the controller was never engaged");
+  return figures;
+}
+
+std::string ToText(const control::ConstraintViolation& violation) {
+  const auto& [constraint, amount] = violation;
+  const auto index = static_cast<std::size_t>(constraint.index);
+  const auto at = [&](const std::string& what, std::string_view unit) {
+    const bool small = unit == "m" && amount < 0.1;
+    const std::string lacking =
+        small ? fmt::format("{:.1f} mm", 1e3 * amount) : fmt::format("{:.2f} {}", amount, unit);
+    return fmt::format("{} at i = {}, short of {}", what, constraint.step, lacking);
+  };
+  switch (constraint.kind) {
+    case ConstraintKind::kInput:
+      return at(fmt::format("bound of {}", kInputNames.at(index)), kInputUnits.at(index));
+    case ConstraintKind::kRate:
+      return at(fmt::format("rate of {}", kInputNames.at(index)), kInputUnits.at(index));
+    case ConstraintKind::kState:
+      return at(fmt::format("bound of {}", kStateNames.at(index)), kStateUnits.at(index));
+    case ConstraintKind::kRoad:
+      return at("road", "m");
+    case ConstraintKind::kObstacle:
+      return at(fmt::format("obstacle {}", constraint.index), "m");
+    case ConstraintKind::kModel:
+      break;
+  }
+  return at(fmt::format("model of {}", kStateNames.at(index)), kStateUnits.at(index));
+}
+
+std::string ToText(const FirstFailure& failure) {
+  std::string text = fmt::format("step {}, {}", failure.step, NameOf(failure.status));
+  if (failure.violation) text += ": " + ToText(*failure.violation);
+  return text;
+}
+
+}  // namespace tools

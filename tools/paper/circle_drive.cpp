@@ -1,0 +1,56 @@
+#include "tools/paper/circle_drive.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "tools/closed_loop.hpp"
+
+namespace tools {
+
+CircleOutcome Drive(const CircleDrive& drive) {
+  constexpr double kDuration = 12.0, kObstacleAfter = 7.0;  // [s]
+  const std::array pieces{control::RoutePiece{.length = kDuration * drive.speed,
+                                              .curvature_from = 1.0 / kCircleRadius,
+                                              .curvature_to = 1.0 / kCircleRadius}};
+  const config::RouteFile road{
+      .route = control::Route::FromPieces({.X = 300.0, .Y = 0.0, .psi = 0.0}, drive.speed, pieces),
+      .road = {.left = kCircleRoadHalfWidth, .right = -kCircleRoadHalfWidth}};
+
+  sim::Scenario scenario(road.route, road.road);
+  scenario.PlaceVehicle(0.0, drive.speed);
+  const control::RoutePoint at = road.route.At(kObstacleAfter * drive.speed);
+  const double lateral = drive.shift - kCircleObstacleRadius;
+  scenario.obstacles = {{.id = 1,
+                         .X = at.X - lateral * std::sin(at.psi),
+                         .Y = at.Y + lateral * std::cos(at.psi),
+                         .r_x = kCircleObstacleRadius,
+                         .r_y = kCircleObstacleRadius,
+                         .side = control::PassingSide::kLeft}};
+
+  lpvmpcd::Config config;
+  config.mpc.horizon = drive.horizon;
+  lpvmpcd::SelectController(config, lpvmpcd::ControllerName(drive.controller));
+  config.loop.send_horizon = false;
+  // The first step that is not solved decides.
+  std::optional<CircleOutcome> unsolved;
+  const ClosedLoopHooks hooks{
+      .step =
+          [&](const StepObservation& observed) {
+            if (unsolved || observed.plan.status == control::SolverStatus::kSolved) return;
+            const auto violation = observed.controller.Unsatisfied();
+            const bool marginal = violation &&
+                                  violation->constraint.kind == control::ConstraintKind::kObstacle &&
+                                  violation->amount < kMarginalShortfall;
+            unsolved = marginal ? CircleOutcome::kMarginal : CircleOutcome::kInfeasible;
+          },
+      .stop = [&] { return unsolved.has_value(); }};
+  const sim::Summary summary = DriveClosedLoop(scenario, config, road, hooks);
+  if (unsolved) return *unsolved;
+  if (!summary.completed) return CircleOutcome::kInfeasible;
+  if (summary.min_clearance_m.value_or(0.0) < 0.0) return CircleOutcome::kTouch;
+  if (summary.min_road_margin_m.value_or(0.0) < 0.0) return CircleOutcome::kOffRoad;
+  return CircleOutcome::kClear;
+}
+
+}  // namespace tools

@@ -1,0 +1,25 @@
+// Roads and drives in the JSON that a report page is drawn from (report_page.hpp tells its form).
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "config/route_file.hpp"
+#include "daemon/config.hpp"
+#include "tools/drive_record.hpp"
+
+namespace tools {
+
+[[nodiscard]] nlohmann::ordered_json RoadData(const config::RouteFile& road);
+
+struct DriveLabel {
+  std::string name;      // in legends
+  std::string road_key;  // of its road in the page's data
+};
+
+// `config` and `road` are those that the drive was driven with.
+[[nodiscard]] nlohmann::ordered_json DriveData(const DriveRecord& record, const DriveLabel& label,
+                                               const lpvmpcd::Config& config, const config::RouteFile& road);
+
+}  // namespace tools
