@@ -82,9 +82,9 @@ fi
 cd / || exit 1
 
 # --- Three at once: time limit, time limit of a command that will not end, death by a signal.
-"$with_vcan" -t 2 -- sleep 71.5 &
+"$with_vcan" -t 12 -- sleep 71.5 &
 limited=$!
-"$with_vcan" -t 2 -- sh -c 'trap "" TERM; sleep 72.5; sleep 72.5' 2>/dev/null &
+"$with_vcan" -t 12 -- sh -c 'trap "" TERM; sleep 72.5; sleep 72.5' 2>/dev/null &
 stubborn=$!
 "$with_vcan" -- sh -c 'kill -SEGV $$' &
 killed=$!
