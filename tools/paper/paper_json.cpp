@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -50,23 +51,28 @@ ordered_json ComparedData(const ComparedDrive& drive, const StepTimes& paper) {
 ordered_json MapData(const FeasibilityMap& map) {
   ordered_json panels = ordered_json::array();
   for (const MapPanel& panel : map.panels) {
-    ordered_json cells = ordered_json::array(), limits = ordered_json::array();
-    for (const auto& row : panel.cells) {
-      ordered_json line = ordered_json::array();
-      for (const CircleOutcome cell : row) line.push_back(NameOf(cell));
-      cells.push_back(line);
-    }
+    ordered_json limits = ordered_json::array();
     for (std::size_t i = 0; i < map.speeds.size(); ++i) limits.push_back(OrNull(map.Limit(panel, i)));
     panels.push_back({{"controller", lpvmpcd::ControllerName(panel.controller)},
                       {"horizon", panel.horizon},
                       {"clear", panel.clear()},
                       {"limit_m", limits},
-                      {"cells", cells}});
+                      {"cells", CellData(panel)}});
   }
   return {{"speeds_m_s", map.speeds}, {"shifts_m", map.shifts}, {"panels", panels}};
 }
 
 }  // namespace
+
+ordered_json CellData(const MapPanel& panel) {
+  ordered_json cells = ordered_json::array();
+  for (const auto& row : panel.cells) {
+    ordered_json line = ordered_json::array();
+    for (const CircleOutcome cell : row) line.push_back(NameOf(cell));
+    cells.push_back(std::move(line));
+  }
+  return cells;
+}
 
 ordered_json ToJson(const PaperResult& result) {
   const std::vector<Claim> claims = JudgeClaims(result);

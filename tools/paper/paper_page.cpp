@@ -157,16 +157,10 @@ void AddMap(const PaperResult& result, ordered_json& page) {
   ordered_json panels = ordered_json::array(), marks = ordered_json::array(), limits = ordered_json::array();
   for (std::size_t p = 0; p < map.panels.size(); ++p) {
     const MapPanel& panel = map.panels[p];
-    ordered_json cells = ordered_json::array();
-    for (const auto& row : panel.cells) {
-      ordered_json line = ordered_json::array();
-      for (const CircleOutcome cell : row) line.push_back(NameOf(cell));
-      cells.push_back(line);
-    }
     const std::string controller = lpvmpcd::ControllerName(panel.controller);
     panels.push_back({{"title", fmt::format("{}, N = {}: {} of {} clear", controller, panel.horizon,
                                             panel.clear(), map.speeds.size() * map.shifts.size())},
-                      {"cells", cells}});
+                      {"cells", CellData(panel)}});
     ordered_json limit{controller, std::to_string(panel.horizon)};
     for (std::size_t i = 0; i < map.speeds.size(); ++i) {
       const auto reached = map.Limit(panel, i);

@@ -42,6 +42,8 @@ struct Claim {
 
 // Words for the outcomes of the map, as in the page's data.
 [[nodiscard]] const char* NameOf(CircleOutcome outcome);
+// The panel's cells by these words: for each shift, for each speed.
+[[nodiscard]] nlohmann::ordered_json CellData(const MapPanel& panel);
 // "feasible", "not completed", or which step was not solved and why.
 [[nodiscard]] std::string OutcomeText(const FeasibilityDrive& drive);
 [[nodiscard]] std::string ClearanceText(const DriveFigures& figures);  // "0.062 m", "-" without an obstacle
