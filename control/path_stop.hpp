@@ -1,0 +1,64 @@
+// Brings the vehicle to a stop along its path when there are no more plans: brakes evenly, and steers by pure pursuit
+// (Coulter, CMU-RI-TR-92-01) with the single-track model's steady state in the place of its kinematics:
+//
+//   κ = 2 y_t / d²            circle through the vehicle, along its course, and a point of the path at distance d
+//   δ = κ (L + K υ²)          L = l_f + l_r,  K = m/(2L) (l_r/C_αf − l_f/C_αr)       understeer gradient
+//   β = κ (l_r − m l_f υ²/(2 C_αr L))     angle between heading and course
+//
+// Both hold down to standstill, where the dynamic model does not. The path is the reference, shifted sideways to where
+// the last plan ends: the road's course, without steering back into what the plan went round. Without a measured
+// state the vehicle's place is reckoned from the commands.
+#pragma once
+
+#include <span>
+
+#include "control/reference.hpp"
+#include "control/types.hpp"
+#include "control/vehicle_parameters.hpp"
+
+namespace control {
+
+struct PathStopSettings {
+  VehicleParameters vehicle;
+  double t_s = 0.05;                // [s]
+  double deceleration = 3.0;        // [m/s²]
+  double max_steering_rate = 0.5;   // by which δ comes from the last plan's to the path's [rad/s]
+  double look_ahead_time = 0.6;     // d = max(look_ahead_time υ, min_look_ahead) [s]
+  double min_look_ahead = 5.0;      // [m]
+  double min_steering_speed = 0.5;  // below it the wheels are held [m/s]
+};
+
+class PathStop {
+ public:
+  // `reference` must outlive it.
+  PathStop(const PathStopSettings& settings, const Reference& reference);
+
+  // The vehicle is at `z`, beside point k of the reference.
+  void Start(const State& z, int k);
+  // One cycle of t_s later: at `measured`, or, if that is null, where `applied` has led it.
+  void Advance(const State* measured, const Input& applied);
+  // The path ends like this plan, N + 1 states that begin where the vehicle is.
+  void Follow(std::span<const State> plan);
+  // What to do in this cycle. `applied`: command of the cycle before.
+  [[nodiscard]] Input Command(const Input& applied) const;
+
+  [[nodiscard]] double speed() const { return speed_; }    // as measured or reckoned [m/s], ≥ 0
+  [[nodiscard]] double offset() const { return offset_; }  // of the path, left of the reference [m]
+
+ private:
+  [[nodiscard]] State At(int k) const;
+  [[nodiscard]] int Nearest(const Eigen::Vector2d& p, int from) const;
+  [[nodiscard]] double SteeringPerCurvature() const;
+  [[nodiscard]] double SlipPerCurvature() const;
+
+  PathStopSettings settings_;
+  const Reference* reference_;
+  Eigen::Vector2d p_ = Eigen::Vector2d::Zero();
+  double psi_ = 0.0;
+  double course_ = 0.0;  // direction of the velocity
+  double speed_ = 0.0;
+  int k_ = 0;  // nearest point of the reference
+  double offset_ = 0.0;
+};
+
+}  // namespace control
