@@ -10,8 +10,9 @@
 namespace lpvmpcd {
 
 CommandGate::CommandGate(const dbc::VehicleBus& bus) : bus_(&bus) {
-  constexpr std::array<const char*, kTxMessages> kNames = {
-      "SteeringCommand", "AccelerationCommand", "ControllerStatus", "SchedulingHealth", "PlannedHorizon"};
+  constexpr std::array<const char*, kTxMessages> kNames = {"SteeringCommand",       "AccelerationCommand",
+                                                           "ControllerStatus",      "SchedulingHealth",
+                                                           "ControllerDiagnostics", "PlannedHorizon"};
   for (std::size_t i = 0; i < kTxMessages; ++i) {
     const dbc::MessageInfo* info = bus.Find(std::string(kNames[i]));
     if (info == nullptr) {
@@ -47,6 +48,10 @@ bool CommandGate::Encode(const dbc::ControllerStatus& status, can::Frame& out) {
 
 bool CommandGate::Encode(const dbc::SchedulingHealth& health, can::Frame& out) {
   return Encode(kHealth, health, out);
+}
+
+bool CommandGate::Encode(const dbc::ControllerDiagnostics& diagnostics, can::Frame& out) {
+  return Encode(kDiagnostics, diagnostics, out);
 }
 
 bool CommandGate::Encode(const dbc::HorizonHeader& header, can::Frame& out) {

@@ -1,5 +1,5 @@
-// The only way of a command onto the bus: takes what the limiter passed, sets `enable` in Active and SafeStop
-// alone, protects it end to end.
+// The only way of a command onto the bus: takes what the limiter passed, sets `enable` in the modes that
+// command alone (Active, Degraded, SafeStop), protects it end to end.
 #pragma once
 
 #include <array>
@@ -32,14 +32,15 @@ class CommandGate {
   // Reports; each with a counter of its own.
   [[nodiscard]] bool Encode(const dbc::ControllerStatus& status, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::SchedulingHealth& health, can::Frame& out);
+  [[nodiscard]] bool Encode(const dbc::ControllerDiagnostics& diagnostics, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::HorizonHeader& header, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::HorizonPoint& point, can::Frame& out);
 
-  // True for the frames that this daemon may put on the bus: its five messages, as standard data frames.
+  // True for the frames that this daemon may put on the bus: its six messages, as standard data frames.
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:
-  enum Tx : std::size_t { kSteering, kAcceleration, kStatus, kHealth, kHorizon, kTxMessages };
+  enum Tx : std::size_t { kSteering, kAcceleration, kStatus, kHealth, kDiagnostics, kHorizon, kTxMessages };
 
   [[nodiscard]] bool Encode(Tx tx, const dbc::Message& message, can::Frame& out);
 

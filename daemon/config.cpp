@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <vector>
@@ -92,10 +93,13 @@ void ReadVehicle(const TomlTable& table, control::VehicleParameters& vehicle) {
   vehicle.C_alpha_r = table.NumberOr("C_alpha_r", vehicle.C_alpha_r, {1e3, 1e7}, "N/rad");
 }
 
-void ReadModes(const TomlTable& engage, const TomlTable& stop, LoopSettings& loop) {
+void ReadModes(const TomlTable& engage, const TomlTable& degraded, const TomlTable& stop,
+               LoopSettings& loop) {
   loop.engage_min_speed = engage.NumberOr("min_speed", loop.engage_min_speed, {0.0, 50.0}, "m/s");
   loop.engage_max_heading_error =
       engage.NumberOr("max_heading_error", loop.engage_max_heading_error, {0.0, 3.15}, "rad");
+  const double max_time = degraded.NumberOr("max_time", 1.0, {0.0, 10.0}, "s");
+  loop.modes.degraded_cycles = static_cast<int>(std::lround(max_time / ToSeconds(loop.period)));
   loop.stop_deceleration = stop.NumberOr("deceleration", loop.stop_deceleration, {0.1, 10.0}, "m/s^2");
   if (loop.stop_deceleration > -loop.limits.min_acceleration) {
     const std::string unless =
@@ -121,9 +125,10 @@ Config LoadConfig(const std::filesystem::path& file) {
   ReadCycle(root.Table("cycle"), config);
   ReadMonitor(root.Table("monitor"), config.loop.monitor);
   ReadLimits(root.Table("limits"), config);
-  ReadModes(root.Table("engage"), root.Table("safe_stop"), config.loop);
+  ReadModes(root.Table("engage"), root.Table("degraded"), root.Table("safe_stop"), config.loop);
   ReadController(root.Table("controller"), config);
   ReadVehicle(root.Table("vehicle"), config.vehicle);
+  config.loop.vehicle = config.vehicle;
   config.loop.send_horizon = root.Table("status").BooleanOr("horizon", config.loop.send_horizon);
   const std::vector<std::string> levels = {"debug", "info", "warning", "error"};
   config.log_level = levels[root.Table("log").ChoiceOr("level", 1, levels)];

@@ -10,6 +10,7 @@
 //                 max_lost = 2                  frames that may be missing between two accepted ones; 0..13
 //   [engage]      min_speed = 3.0               [m/s], 0..50
 //                 max_heading_error = 0.5       against the route [rad], 0..3.15
+//   [degraded]    max_time = 1.0                drive on without a new plan, obstacles or the driver's request [s], 0..10
 //   [safe_stop]   deceleration = 3.0            [m/s²], 0.1..10, not above −min_acceleration
 //                 standstill_speed = 0.3        below it the vehicle stands [m/s], 0.01..5
 //   [limits]      max_steering = 0.593412       |δ| [rad], 0.01..1.04

@@ -12,25 +12,25 @@ namespace {
 constexpr std::uint8_t kNoState = 15;
 constexpr int kNoPlanAge = 63;
 constexpr std::size_t kCommands = 2;
-constexpr std::size_t kReports = 3;    // status, health, header of the horizon
+constexpr std::size_t kReports = 4;    // status, health, diagnostics, header of the horizon
 constexpr int kPeriodsOfSilence = 40;  // without a command, after which others have the vehicle
 
-// A plan is taken only if it was solved and every value of it is a number.
+// Of a plan that was solved: every value of it is a number.
 bool Acceptable(const control::Plan& plan, int horizon) {
   const auto n = static_cast<std::size_t>(horizon);
-  return plan.status == control::SolverStatus::kSolved && plan.u.size() == n && plan.z.size() == n + 1 &&
+  return plan.u.size() == n && plan.z.size() == n + 1 &&
          std::ranges::all_of(plan.u, [](const control::Input& u) { return u.allFinite(); }) &&
          std::ranges::all_of(plan.z, [](const control::State& z) { return z.allFinite(); });
 }
 
-// Why a plan was not accepted.
 dbc::FaultCode SolverFault(control::SolverStatus status) {
   switch (status) {
+    case control::SolverStatus::kSolved:
+      return dbc::FaultCode::kNone;
     case control::SolverStatus::kInfeasible:
       return dbc::FaultCode::kSolverInfeasible;
     case control::SolverStatus::kIterationLimit:
       return dbc::FaultCode::kSolverIterationLimit;
-    case control::SolverStatus::kSolved:  // and yet not all of it is a number
     case control::SolverStatus::kNumericalFailure:
       break;
   }
@@ -65,7 +65,11 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bu
       states_(settings.period),
       limiter_(settings.limits),
       gate_(bus),
-      plan_(controller.horizon()) {
+      plan_(controller.horizon()),
+      stop_({.vehicle = settings.vehicle,
+             .t_s = ToSeconds(settings.period),
+             .deceleration = settings.stop_deceleration},
+            reference) {
   const int horizon = controller.horizon();
   settings_.limits.max_age = std::min(settings.limits.max_age, horizon - 1);
   limiter_ = control::CommandLimiter(settings_.limits);
@@ -115,6 +119,7 @@ bool ControlLoop::Receive(const can::Frame& frame, Time now) {
 
 std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   const Time start = stopwatch_();
+  const Time waited = trigger == Trigger::kState ? now - trigger_time_ : Time{0};
   report_.previous_mode = mode_.mode;
   report_.solver = dbc::SolverStatus::kNone;
   report_.iterations = 0;
@@ -132,24 +137,35 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   ModeInputs inputs = Judge(now, trigger);
   const bool asked = mode_.mode == Mode::kStandby && inputs.state_new && RisingEdge(mode_, inputs);
 
-  // 3. The plan: a new one from a new state; without one, or if it is refused, the last plan goes on.
+  // 3. The plan: a new one from a new state; without one, or if it is late or refused, the last plan goes on.
   const bool engaging = EngagementRequested(mode_, inputs);
-  const bool driving = mode_.mode == Mode::kActive && inputs.state_new && inputs.state_fresh;
-  if (engaging || (driving && !inputs.route_end)) {
+  const bool driving = Drives(mode_.mode);
+  TrackVehicle(inputs, engaging);
+  if (waited <= settings_.deadline &&
+      (engaging || (driving && inputs.state_new && inputs.state_fresh && inputs.route_left > 0))) {
     Solve(engaging);
   }
-  inputs.plan_usable = plan_.Covers(steps_.step());
+  const Time elapsed = stopwatch_() - start;
+  const bool late = waited + elapsed > settings_.deadline;
+  step_ = steps_.step() + (late ? (waited + elapsed) / settings_.period : 0);
+  JudgePlan(late);
+  if (engaging || driving) {
+    inputs.plan_fault = PlanFault(inputs, late);
+  }
+  inputs.plan_usable = plan_.Covers(step_);
+  inputs.plan_left = plan_.Left(step_);
 
   // 4. The mode.
-  mode_ = Next(mode_, inputs);
+  mode_ = Next(mode_, inputs, settings_.modes);
 
   // 5. The command, 6. the limiter, 7. the gate: what one of them refuses is never sent.
+  const Trigger answered = late ? Trigger::kTimer : trigger;
   control::LimitResult limited = Command();
-  if (!limited.command || !Emit(*limited.command, trigger)) {
+  if (!limited.command || !Emit(*limited.command, answered)) {
     inputs.internal_error = true;
-    mode_ = Next(mode_, inputs);
+    mode_ = Next(mode_, inputs, settings_.modes);
     limited = Measured();
-    static_cast<void>(Emit(*limited.command, trigger));
+    static_cast<void>(Emit(*limited.command, answered));
   }
   if (Commands(mode_.mode)) {
     applied_ = limited.command->u();
@@ -158,15 +174,14 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   }
 
   // 8. What to tell about it, after the commands, so that these are on the bus soonest.
-  const Time elapsed = stopwatch_() - start;
-  const Time waited = trigger == Trigger::kState ? now - trigger_time_ : Time{0};
-  report_.deadline_misses += waited + elapsed > settings_.period ? 1 : 0;
+  report_.deadline_misses += late ? 1 : 0;
   report_.cycles += 1;
   report_.mode = mode_.mode;
   report_.cause = mode_.cause;
   report_.fault = Fault(inputs);
   report_.engagement_refused = asked && mode_.mode == Mode::kStandby;
-  report_.plan_age = plan_.exists() ? plan_.Age(steps_.step()) : -1;
+  report_.plan_age = plan_.exists() ? plan_.Age(step_) : -1;
+  report_.countdown = Countdown(inputs);
   report_.limited = limited.status == control::LimitStatus::kLimited;
   report_.command = limited.command->u();
   report_.step_time = elapsed;
@@ -225,8 +240,17 @@ ModeInputs ControlLoop::Judge(Time now, Trigger trigger) {
   const std::int64_t k = steps_.step() - route_start_;
   report_.route_index = on_route ? static_cast<int>(k) : -1;
   inputs.near_route = on_route && speed >= settings_.engage_min_speed;
-  inputs.route_end = on_route && k + controller_->horizon() >= reference_->size();
+  inputs.route_left = on_route ? reference_->size() - controller_->horizon() - k : 0;
   return inputs;
+}
+
+void ControlLoop::TrackVehicle(const ModeInputs& inputs, bool engaging) {
+  const control::State& z = states_.state().z;
+  if (engaging) {
+    stop_.Start(z, report_.route_index);
+  } else if (Commands(mode_.mode)) {
+    stop_.Advance(inputs.state_new && inputs.state_fresh ? &z : nullptr, applied_);
+  }
 }
 
 void ControlLoop::Solve(bool engaging) {
@@ -245,24 +269,40 @@ void ControlLoop::Solve(bool engaging) {
   solve_ = &plan;
   report_.solver = ToBus(plan.status);
   report_.iterations = plan.iterations;
-  report_.plan_accepted = Acceptable(plan, controller_->horizon());
+}
+
+void ControlLoop::JudgePlan(bool late) {
+  if (solve_ == nullptr) {
+    return;
+  }
+  dbc::FaultCode refusal = SolverFault(solve_->status);
+  if (refusal == dbc::FaultCode::kNone && !Acceptable(*solve_, controller_->horizon())) {
+    refusal = dbc::FaultCode::kPlanRejected;
+  }
+  if (late) {
+    refusal = dbc::FaultCode::kDeadlineMissed;
+  }
+  report_.plan_accepted = refusal == dbc::FaultCode::kNone;
   if (report_.plan_accepted) {
-    plan_.Take(plan, steps_.step());
+    plan_.Take(*solve_, steps_.step());
+    stop_.Follow(solve_->z);
   } else {
-    ++report_.solver_failures;
-    report_.last_solver_failure = SolverFault(plan.status);
+    ++report_.plans_refused;
+    report_.last_refusal = refusal;
   }
 }
 
 control::LimitResult ControlLoop::Command() const {
-  const std::int64_t step = steps_.step();
-  if (mode_.mode == Mode::kActive) {
-    return limiter_.Limit(plan_.At(step), applied_, plan_.Age(step));
+  if (Drives(mode_.mode)) {
+    return limiter_.Limit(plan_.At(step_), applied_, plan_.Age(step_));
   }
   if (mode_.mode == Mode::kSafeStop) {
-    // Along the rest of the last plan, then with the wheels held; never snapped to zero.
-    const double delta = plan_.Covers(step) ? plan_.At(step)[control::kDelta] : applied_[control::kDelta];
-    return limiter_.Limit({delta, -settings_.stop_deceleration}, applied_, 0);
+    // Along the rest of the last plan, then along its path; never snapped to zero.
+    control::Input u = stop_.Command(applied_);
+    if (plan_.Covers(step_)) {
+      u[control::kDelta] = plan_.At(step_)[control::kDelta];
+    }
+    return limiter_.Limit(u, applied_, 0);
   }
   return Measured();
 }
@@ -273,17 +313,36 @@ control::LimitResult ControlLoop::Measured() const {
   return limiter_.Limit(feedback, feedback, 0);
 }
 
+std::optional<Cause> ControlLoop::PlanFault(const ModeInputs& inputs, bool late) const {
+  if (report_.plan_accepted) return std::nullopt;
+  if (late) return Cause::kDeadlineMissed;
+  if (solve_ == nullptr) return inputs.state_new ? std::nullopt : std::optional(Cause::kStateLate);
+  return solve_->status == control::SolverStatus::kSolved ? Cause::kPlanRejected : Cause::kSolverFailed;
+}
+
 dbc::FaultCode ControlLoop::Fault(const ModeInputs& inputs) const {
-  if (mode_.mode == Mode::kSafeStop || mode_.mode == Mode::kFault) return FaultOf(mode_.cause);
-  if (const auto cause = InputFault(inputs)) return FaultOf(*cause);
-  if (solve_ != nullptr && !report_.plan_accepted) return report_.last_solver_failure;
-  if (mode_.mode == Mode::kStandby && inputs.route_end) return dbc::FaultCode::kRouteEnd;
+  const bool stopped = mode_.mode == Mode::kSafeStop || mode_.mode == Mode::kFault;
+  const auto cause = stopped ? mode_.cause : InputFault(inputs) ? InputFault(inputs) : inputs.plan_fault;
+  if (cause) return *cause == Cause::kSolverFailed ? report_.last_refusal : FaultOf(*cause);
+  if (mode_.mode == Mode::kStandby && inputs.near_route && inputs.route_left <= 0)
+    return dbc::FaultCode::kRouteEnd;
   if (mode_.mode == Mode::kStandby && !inputs.near_route) return dbc::FaultCode::kOffRoute;
   return dbc::FaultCode::kNone;
 }
 
+Time ControlLoop::Countdown(const ModeInputs& inputs) const {
+  if (mode_.mode == Mode::kSafeStop) return Time{0};
+  if (!Drives(mode_.mode)) return Time::max();
+  std::int64_t cycles = inputs.route_left;
+  if (mode_.mode == Mode::kDegraded) {
+    cycles = std::min<std::int64_t>(cycles, mode_.degraded_left);
+    if (inputs.plan_fault) cycles = std::min<std::int64_t>(cycles, inputs.plan_left);
+  }
+  return cycles * settings_.period;
+}
+
 bool ControlLoop::Emit(const control::LimitedCommand& command, Trigger trigger) {
-  const int age = plan_.exists() ? plan_.Age(steps_.step()) : kNoPlanAge;
+  const int age = plan_.exists() ? plan_.Age(step_) : kNoPlanAge;
   const Answer answer{.mode = mode_.mode,
                       .state_counter = trigger == Trigger::kState ? states_.state().counter : kNoState,
                       .plan_age = static_cast<std::uint8_t>(std::min(age, kNoPlanAge))};
@@ -298,6 +357,7 @@ bool ControlLoop::Emit(const control::LimitedCommand& command, Trigger trigger) 
 void ControlLoop::EmitReports() {
   AppendStatus(report_, gate_, frames_);
   AppendHealth(solve_, gate_, frames_);
+  AppendDiagnostics(report_, mode_, gate_, frames_);
   if (settings_.send_horizon && report_.plan_accepted) {
     AppendHorizon(*solve_, states_.state().counter, settings_.period, gate_, frames_);
   }

@@ -22,7 +22,9 @@
 #include "can/frame.hpp"
 #include "control/command_limiter.hpp"
 #include "control/controller.hpp"
+#include "control/path_stop.hpp"
 #include "control/reference.hpp"
+#include "control/vehicle_parameters.hpp"
 #include "daemon/command_gate.hpp"
 #include "daemon/cycle_report.hpp"
 #include "daemon/message_monitor.hpp"
@@ -37,9 +39,12 @@
 namespace lpvmpcd {
 
 struct LoopSettings {
-  Time period = std::chrono::milliseconds(50);  // t_s, of the bus, the reference and the controller alike
+  Time period = std::chrono::milliseconds(50);    // t_s, of the bus, the reference and the controller alike
+  Time deadline = std::chrono::milliseconds(50);  // age of a state at which an answer to it comes too late
   MonitorSettings monitor;
-  control::CommandLimits limits;          // max_age is lowered to what the controller's horizon covers
+  control::CommandLimits limits;  // max_age is lowered to what the controller's horizon covers
+  ModeSettings modes;
+  control::VehicleParameters vehicle;     // for the steering of SafeStop
   double stop_deceleration = 3.0;         // of SafeStop [m/s²], 0.1..10
   double standstill_speed = 0.3;          // below it the vehicle stands [m/s], 0..5
   double engage_min_speed = 3.0;          // [m/s], 0..50
@@ -60,8 +65,9 @@ class ControlLoop {
   // Takes a frame in. True: a state set is complete and a cycle is due.
   [[nodiscard]] bool Receive(const can::Frame& frame, Time now);
 
-  // One control cycle. The frames to send, in this order: both commands, status, scheduling health, and with
-  // a new plan its horizon. They belong to the loop and stay until the next call.
+  // One control cycle. The frames to send, in this order: both commands, status, scheduling health, diagnostics, and
+  // with a new plan its horizon. They belong to the loop and stay until the next call. A state that has waited longer
+  // than the deadline, here or while its plan was made, gets no answer: the last plan goes on, from where it is now.
   [[nodiscard]] std::span<const can::Frame> Cycle(Time now, Trigger trigger);
 
   // A status alone, before the first cycle: somebody is here.
@@ -82,10 +88,14 @@ class ControlLoop {
 
  private:
   [[nodiscard]] ModeInputs Judge(Time now, Trigger trigger);
+  void TrackVehicle(const ModeInputs& inputs, bool engaging);
   void Solve(bool engaging);
+  void JudgePlan(bool late);
+  [[nodiscard]] std::optional<Cause> PlanFault(const ModeInputs& inputs, bool late) const;
   [[nodiscard]] control::LimitResult Command() const;
   [[nodiscard]] control::LimitResult Measured() const;
   [[nodiscard]] dbc::FaultCode Fault(const ModeInputs& inputs) const;
+  [[nodiscard]] Time Countdown(const ModeInputs& inputs) const;
   [[nodiscard]] bool Emit(const control::LimitedCommand& command, Trigger trigger);
   void EmitReports();
 
@@ -110,11 +120,13 @@ class ControlLoop {
   ModeState mode_;
 
   StepCounter steps_;
+  std::int64_t step_ = 0;         // of the command: later than the state's, if the cycle took that long
   std::int64_t route_start_ = 0;  // reference point k belongs to step route_start_ + k
 
   PlanInForce plan_;
   const control::Plan* solve_ = nullptr;             // of this cycle, accepted or not
-  control::Input applied_ = control::Input::Zero();  // last command in Active and SafeStop, else as measured
+  control::PathStop stop_;                           // knows where the vehicle is, and where the plan leads
+  control::Input applied_ = control::Input::Zero();  // last command that was enabled, else as measured
 
   std::vector<control::State> window_;
   std::vector<can::Frame> frames_;

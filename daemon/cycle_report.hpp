@@ -19,15 +19,17 @@ struct CycleReport {
   int iterations = 0;  // of the solver
   bool plan_accepted = false;
   bool engagement_refused = false;  // the driver asked in this cycle and did not get it
+  Time countdown = Time::max();     // until the vehicle is stopped, as things are; max: not driving
   int plan_age = -1;                // cycles, -1 without a plan
   int route_index = -1;             // point of the reference, -1 off the route
   bool limited = false;             // the limiter changed the command
   control::Input command = control::Input::Zero();
-  Time step_time{};  // by the stopwatch
+  Time step_time{};      // by the stopwatch
+  Time cycle_latency{};  // of the last state that was answered: its arrival to both commands sent
   std::uint64_t cycles = 0;
   std::uint64_t deadline_misses = 0;
-  std::uint64_t solver_failures = 0;                           // plans not accepted
-  dbc::FaultCode last_solver_failure = dbc::FaultCode::kNone;  // why the last of them was not
+  std::uint64_t plans_refused = 0;                      // not solved, late, or not acceptable
+  dbc::FaultCode last_refusal = dbc::FaultCode::kNone;  // why the last of them was
 };
 
 }  // namespace lpvmpcd

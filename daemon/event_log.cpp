@@ -88,8 +88,8 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
   if (rejected_lists_.Tell(loop.obstacles().rejected(), now, n)) {
     spdlog::warn("obstacle lists that did not fit their objects: {}", n);
   }
-  if (solver_failures_.Tell(report.solver_failures, now, n)) {
-    spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.last_solver_failure));
+  if (plans_refused_.Tell(report.plans_refused, now, n)) {
+    spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.last_refusal));
   }
   if (deadline_misses_.Tell(report.deadline_misses, now, n)) {
     spdlog::warn("deadlines missed: {}", n);
@@ -177,6 +177,12 @@ std::string_view Name(dbc::FaultCode fault) {
       return "bus down";
     case dbc::FaultCode::kInternalError:
       return "internal error";
+    case dbc::FaultCode::kStateLate:
+      return "no new vehicle state";
+    case dbc::FaultCode::kDeadlineMissed:
+      return "deadline missed";
+    case dbc::FaultCode::kPlanRejected:
+      return "plan rejected";
   }
   return "?";
 }

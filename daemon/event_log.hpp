@@ -39,7 +39,7 @@ class EventLog {
 
  private:
   std::array<EventCount, kRxFaults> rx_faults_;
-  EventCount lost_, rejected_lists_, solver_failures_, deadline_misses_, late_states_, dropped_, unsent_;
+  EventCount lost_, rejected_lists_, plans_refused_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;
 };
 

@@ -5,12 +5,19 @@
 namespace lpvmpcd {
 namespace {
 
-// What ends Active with a stop.
-std::optional<Cause> StopCause(const ModeInputs& inputs) {
-  if (const auto cause = InputFault(inputs)) return cause;
-  if (inputs.route_end) return Cause::kRouteEnd;
+// What cannot be done without.
+std::optional<Cause> HardFault(const ModeInputs& inputs) {
+  const bool hard = !inputs.bus_up || !inputs.state_fresh;
+  if (hard) return InputFault(inputs);
+  if (inputs.route_left <= 0) return Cause::kRouteEnd;
   if (!inputs.plan_usable) return Cause::kPlanExhausted;
   return std::nullopt;
+}
+
+// What can, for a while.
+std::optional<Cause> SoftFault(const ModeInputs& inputs) {
+  const auto fault = InputFault(inputs);
+  return fault ? fault : inputs.plan_fault;
 }
 
 Cause SilenceCause(const ModeInputs& inputs) {
@@ -23,11 +30,12 @@ int CountHealthy(const ModeState& state, const ModeInputs& inputs) {
 
 }  // namespace
 
-ModeState Next(const ModeState& state, const ModeInputs& inputs) {
+ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSettings& settings) {
   ModeState next = state;
   next.healthy_cycles = CountHealthy(state, inputs);
   const bool withdrawn = inputs.request_fresh && (inputs.released || !inputs.engage);
   const auto enter = [&next](Mode mode, Cause cause) {
+    next.previous = next.mode;
     next.mode = mode;
     next.cause = cause;
     next.armed = false;
@@ -61,13 +69,25 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs) {
         enter(Mode::kStandby, Cause::kReleased);
       } else if (inputs.silent) {
         enter(Mode::kFault, SilenceCause(inputs));
-      } else if (const auto cause = StopCause(inputs)) {
-        enter(Mode::kSafeStop, *cause);
+      } else if (const auto hard = HardFault(inputs)) {
+        enter(Mode::kSafeStop, *hard);
+      } else if (const auto soft = SoftFault(inputs)) {
+        const int left = state.mode == Mode::kDegraded ? state.degraded_left : settings.degraded_cycles;
+        if (left == 0) {
+          enter(Mode::kSafeStop, *soft);
+        } else if (state.mode == Mode::kActive) {
+          enter(Mode::kDegraded, *soft);
+        }
+        next.degraded_left = std::max(left - 1, 0);
+      } else if (state.mode == Mode::kDegraded) {
+        enter(Mode::kActive, Cause::kRecovered);
       }
       break;
     case Mode::kSafeStop:
       if (inputs.override_seen) {
         enter(Mode::kStandby, Cause::kOverride);
+      } else if (withdrawn) {
+        enter(Mode::kStandby, Cause::kReleased);
       } else if (inputs.standstill) {
         enter(Mode::kStandby, Cause::kStandstill);
       } else if (inputs.silent) {
@@ -89,7 +109,7 @@ bool RisingEdge(const ModeState& state, const ModeInputs& inputs) {
 
 bool EngagementRequested(const ModeState& state, const ModeInputs& inputs) {
   return state.mode == Mode::kStandby && RisingEdge(state, inputs) && inputs.state_new &&
-         CountHealthy(state, inputs) == kHealthyCycles && inputs.near_route && !inputs.route_end &&
+         CountHealthy(state, inputs) == kHealthyCycles && inputs.near_route && inputs.route_left > 0 &&
          !inputs.override_seen;
 }
 
@@ -117,6 +137,14 @@ dbc::FaultCode FaultOf(Cause cause) {
       return dbc::FaultCode::kRouteEnd;
     case Cause::kPlanExhausted:
       return dbc::FaultCode::kPlanExhausted;
+    case Cause::kStateLate:
+      return dbc::FaultCode::kStateLate;
+    case Cause::kSolverFailed:
+      return dbc::FaultCode::kSolverNumericalFailure;
+    case Cause::kDeadlineMissed:
+      return dbc::FaultCode::kDeadlineMissed;
+    case Cause::kPlanRejected:
+      return dbc::FaultCode::kPlanRejected;
     case Cause::kSilent:
     case Cause::kInternalError:
       return dbc::FaultCode::kInternalError;
@@ -166,6 +194,14 @@ std::string_view Name(Cause cause) {
       return "no command sent for too long";
     case Cause::kInternalError:
       return "internal error";
+    case Cause::kStateLate:
+      return "no new vehicle state";
+    case Cause::kSolverFailed:
+      return "problem not solved";
+    case Cause::kDeadlineMissed:
+      return "deadline missed";
+    case Cause::kPlanRejected:
+      return "plan rejected";
   }
   return "?";
 }

@@ -1,16 +1,21 @@
 // Who drives: a pure function of the mode before and of what is known in this cycle. One step a cycle; cycles
 // are counted and no time is read, so that a run is repeatable to the bit.
 //
-//   Init ──► Standby ──► Active ──► SafeStop ──► Standby           Fault from anywhere, back to Standby
-//              ▲           │
-//              └───────────┘  override, request withdrawn
+//   Init ──► Standby ──► Active ◄──► Degraded ──► SafeStop ──► Standby        Fault from anywhere, back to Standby
+//              ▲           │            │             │
+//              └───────────┴────────────┴─────────────┘  override, request withdrawn
 //
 // Engagement needs a rising edge of the driver's request, seen in Standby, while all inputs are healthy, the
 // vehicle stands near the route, nobody overrides and a first plan exists. An edge that comes while one of
 // these is missing is spent: the driver has to ask again. (An edge in a cycle without a new state waits for
-// the next state.) Whoever has been silent for long while commanding, the bus away or the process stopped, has lost
-// the vehicle to others: no command is enabled again before the driver asks anew. Mode Degraded exists on the bus;
-// this version does not enter it.
+// the next state.)
+//
+// Degraded drives on although something is missing that can be done without for a while: a new plan (the last one
+// goes on), the obstacles or the driver's request. Its countdown says for how many cycles more; then, and at once
+// where there is no doing without, SafeStop brings the vehicle to a stop along its path.
+//
+// Whoever has been silent for long while commanding, the bus away or the process stopped, has lost the vehicle to
+// others: no command is enabled again before the driver asks anew.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +43,12 @@ struct ModeInputs {
   bool override_seen = false;  // brake or steering override since the cycle before
   bool near_route = false;     // on the road, along it, fast enough
   bool plan_usable = false;    // a command can be taken from a plan that is not exhausted
-  bool route_end = false;      // less than a horizon of the route is left
-  bool standstill = false;     // a fresh state says so
-  bool silent = false;         // for many cycles no command has gone out
+  int plan_left = 0;           // cycles after this one for which the same plan has a command
+  std::optional<dbc::ModeCause> plan_fault =
+      std::nullopt;             // why this cycle has no new plan, if it should have
+  std::int64_t route_left = 0;  // steps for which the route is long enough to plan on it, off the route 0
+  bool standstill = false;      // a fresh state says so
+  bool silent = false;          // for many cycles no command has gone out
   bool internal_error = false;
 
   [[nodiscard]] bool Healthy() const {
@@ -49,24 +57,7 @@ struct ModeInputs {
 };
 
 // Why the present mode was entered.
-enum class Cause : std::uint8_t {
-  kStart,
-  kInputsHealthy,
-  kEngaged,
-  kReleased,
-  kOverride,
-  kStandstill,
-  kRecovered,
-  kBusDown,
-  kStateStale,
-  kStateInvalid,
-  kObstaclesStale,
-  kDriverRequestStale,
-  kRouteEnd,
-  kPlanExhausted,
-  kSilent,
-  kInternalError,
-};
+using Cause = dbc::ModeCause;
 [[nodiscard]] std::string_view Name(Cause cause);
 [[nodiscard]] std::string_view Name(Mode mode);
 // kNone for a cause that is an event and no fault.
@@ -74,14 +65,21 @@ enum class Cause : std::uint8_t {
 // What is wrong with the inputs, the gravest first: the reason of a stop, or why it would not engage.
 [[nodiscard]] std::optional<Cause> InputFault(const ModeInputs& inputs);
 
+struct ModeSettings {
+  int degraded_cycles = 20;  // in a row, before the vehicle is stopped; ≥ 0
+};
+
 struct ModeState {
   Mode mode = Mode::kInit;
+  Mode previous = Mode::kInit;  // before the present one
   Cause cause = Cause::kStart;
   int healthy_cycles = 0;  // in a row, up to kHealthyCycles
   bool armed = false;      // in Standby: engage was seen false, so its next true is a rising edge
+  int degraded_left = 0;   // in Degraded: cycles that may follow in it
 };
 
-[[nodiscard]] ModeState Next(const ModeState& state, const ModeInputs& inputs);
+[[nodiscard]] ModeState Next(const ModeState& state, const ModeInputs& inputs,
+                             const ModeSettings& settings = {});
 
 // In Standby: the driver's request went from false to true.
 [[nodiscard]] bool RisingEdge(const ModeState& state, const ModeInputs& inputs);
@@ -90,9 +88,14 @@ struct ModeState {
 // `inputs.plan_usable`.
 [[nodiscard]] bool EngagementRequested(const ModeState& state, const ModeInputs& inputs);
 
+// True in the modes that drive along a plan.
+[[nodiscard]] constexpr bool Drives(Mode mode) {
+  return mode == Mode::kActive || mode == Mode::kDegraded;
+}
+
 // True in the modes whose commands the vehicle is to obey.
 [[nodiscard]] constexpr bool Commands(Mode mode) {
-  return mode == Mode::kActive || mode == Mode::kSafeStop;
+  return Drives(mode) || mode == Mode::kSafeStop;
 }
 
 }  // namespace lpvmpcd

@@ -28,6 +28,10 @@ class PlanInForce {
   [[nodiscard]] bool Covers(std::int64_t step) const {
     return step >= made_ && step - made_ < static_cast<std::int64_t>(u_.size());
   }
+  // Steps after `step` for which there is an input.
+  [[nodiscard]] int Left(std::int64_t step) const {
+    return Covers(step) ? static_cast<int>(u_.size()) - 1 - Age(step) : 0;
+  }
   // Requires Covers(step).
   [[nodiscard]] const control::Input& At(std::int64_t step) const {
     return u_[static_cast<std::size_t>(step - made_)];

@@ -38,6 +38,16 @@ void AppendHealth(const control::Plan* solve, CommandGate& gate, std::vector<can
   Append(health, gate, frames);
 }
 
+void AppendDiagnostics(const CycleReport& report, const ModeState& mode, CommandGate& gate,
+                       std::vector<can::Frame>& frames) {
+  Append(dbc::ControllerDiagnostics{.cause = mode.cause,
+                                    .previous_mode = mode.previous,
+                                    .countdown = ToSeconds(report.countdown),
+                                    .cycle_latency = ToSeconds(report.cycle_latency),
+                                    .plans_refused = static_cast<std::uint16_t>(report.plans_refused % 1024)},
+         gate, frames);
+}
+
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, Time period, CommandGate& gate,
                    std::vector<can::Frame>& frames) {
   const std::size_t points = std::min(plan.z.size(), kMaxPoints);

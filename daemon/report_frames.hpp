@@ -18,6 +18,10 @@ void AppendStatus(const CycleReport& report, CommandGate& gate, std::vector<can:
 // SchedulingHealth of a control step; without one (null) its figures are 0.
 void AppendHealth(const control::Plan* solve, CommandGate& gate, std::vector<can::Frame>& frames);
 
+// ControllerDiagnostics.
+void AppendDiagnostics(const CycleReport& report, const ModeState& mode, CommandGate& gate,
+                       std::vector<can::Frame>& frames);
+
 // PlannedHorizon, header and points (at most 127, as many as the bus counts), of a plan made for the state of this
 // counter.
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, Time period, CommandGate& gate,

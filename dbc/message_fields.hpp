@@ -94,6 +94,15 @@ template <>
 inline constexpr auto kFields<HorizonPoint> =
     Fields("PlannedHorizon", Field{"Index", &HorizonPoint::index}, Field{"X", &HorizonPoint::X},
            Field{"Y", &HorizonPoint::Y});
+template <>
+inline constexpr auto kFields<ControllerDiagnostics> =
+    Fields("ControllerDiagnostics", Field{"Cause", &ControllerDiagnostics::cause},
+           Field{"PreviousMode", &ControllerDiagnostics::previous_mode},
+           Field{"Countdown", &ControllerDiagnostics::countdown},
+           Field{"FaultyMessage", &ControllerDiagnostics::faulty_message},
+           Field{"FrameFault", &ControllerDiagnostics::frame_fault},
+           Field{"CycleLatency", &ControllerDiagnostics::cycle_latency},
+           Field{"PlansRefused", &ControllerDiagnostics::plans_refused});
 
 // The last enumerator of each enumeration; all of them begin at 0 and leave no gap.
 inline constexpr PassingSide LastOf(PassingSide) {
@@ -106,7 +115,10 @@ inline constexpr SolverStatus LastOf(SolverStatus) {
   return SolverStatus::kNumericalFailure;
 }
 inline constexpr FaultCode LastOf(FaultCode) {
-  return FaultCode::kInternalError;
+  return FaultCode::kPlanRejected;
+}
+inline constexpr ModeCause LastOf(ModeCause) {
+  return ModeCause::kPlanRejected;
 }
 
 // A member as the physical value of its signal, and back; false if the member cannot hold the value.

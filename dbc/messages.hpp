@@ -103,6 +103,32 @@ enum class FaultCode : std::uint8_t {
   kOffRoute = 10,
   kBusDown = 11,
   kInternalError = 12,
+  kStateLate = 13,       // no new state in this cycle
+  kDeadlineMissed = 14,  // the plan came too late to be used
+  kPlanRejected = 15,    // solved, but not fit to be followed
+};
+// Why a mode was entered.
+enum class ModeCause : std::uint8_t {
+  kStart = 0,
+  kInputsHealthy = 1,
+  kEngaged = 2,
+  kReleased = 3,
+  kOverride = 4,
+  kStandstill = 5,
+  kRecovered = 6,
+  kBusDown = 7,
+  kStateStale = 8,
+  kStateInvalid = 9,
+  kObstaclesStale = 10,
+  kDriverRequestStale = 11,
+  kRouteEnd = 12,
+  kPlanExhausted = 13,
+  kSilent = 14,
+  kInternalError = 15,
+  kStateLate = 16,
+  kSolverFailed = 17,
+  kDeadlineMissed = 18,
+  kPlanRejected = 19,
 };
 
 struct ControllerStatus {
@@ -131,9 +157,19 @@ struct HorizonPoint {
   double Y = 0.0;
 };
 
+struct ControllerDiagnostics {
+  ModeCause cause = ModeCause::kStart;  // why the present mode was entered
+  Mode previous_mode = Mode::kInit;     // before the present one
+  double countdown = 12.75;         // until it begins to stop the vehicle [s]; 12.75: that or longer, or none
+  std::uint8_t faulty_message = 0;  // VAL_ FaultyMessage of vehicle.dbc, 0: none
+  std::uint8_t frame_fault = 0;     // VAL_ FrameFault of vehicle.dbc, 0: none
+  double cycle_latency = 0.0;       // arrival of the state to both commands sent, in the cycle before [s]
+  std::uint16_t plans_refused = 0;  // since start, modulo 1024
+};
+
 using Message =
     std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape, ObstacleMotion,
                  ObstacleList, DriverRequest, SteeringCommand, AccelerationCommand, ControllerStatus,
-                 SchedulingHealth, HorizonHeader, HorizonPoint>;
+                 SchedulingHealth, HorizonHeader, HorizonPoint, ControllerDiagnostics>;
 
 }  // namespace dbc

@@ -20,6 +20,10 @@ void KeepSmaller(std::optional<double>& smallest, double value) {
   smallest = std::min(smallest.value_or(value), value);
 }
 
+bool Drives(dbc::Mode mode) {
+  return mode == dbc::Mode::kActive || mode == dbc::Mode::kDegraded;
+}
+
 class Judge {
  public:
   explicit Judge(std::vector<std::string>& failed) : failed_(&failed) {}
@@ -50,7 +54,7 @@ std::string OrDash(const std::optional<double>& value) {
 void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
   if (!vehicle.status_is_new()) return;
   const dbc::ControllerStatus& status = vehicle.status();
-  if (status.mode == dbc::Mode::kActive) {
+  if (Drives(status.mode)) {
     if (status.solver_status != dbc::SolverStatus::kSolved) ++summary_.infeasible_steps;
     solve_times_us_.push_back(static_cast<int>(std::lround(status.solve_time * 1e6)));
   }
@@ -94,10 +98,10 @@ void Recorder::Record(const VirtualVehicle& vehicle) {
 
   if (EndReached(vehicle)) {
     finished_ = true;
-    summary_.completed = engaged_ && (vehicle.mode() == dbc::Mode::kActive ||
-                                      vehicle.status().fault_code == dbc::FaultCode::kRouteEnd);
+    summary_.completed =
+        engaged_ && (Drives(vehicle.mode()) || vehicle.status().fault_code == dbc::FaultCode::kRouteEnd);
   } else if (!scenario_->duration) {
-    const bool stands = standing_cycles_ >= kStandstillCycles && vehicle.mode() != dbc::Mode::kActive;
+    const bool stands = standing_cycles_ >= kStandstillCycles && !Drives(vehicle.mode());
     finished_ = stands || vehicle.time() > 2.0 * scenario_->route.duration() + 10.0;
   }
 }

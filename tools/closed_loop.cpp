@@ -26,9 +26,11 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Confi
         fmt::format("the configuration's cycle.period = {} must be {} s, the simulated vehicle's",
                     std::chrono::duration<double>(config.loop.period).count(), sim::kCycleTime));
   }
+  lpvmpcd::Config untimed = config;  // what a computer takes for a step must not change the drive
+  untimed.loop.deadline = lpvmpcd::Time::max();
   std::unique_ptr<control::Controller> law = MakeController(config);
   if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
-  lpvmpcd::Assembly controller(config, route, lpvmpcd::MonotonicNow, std::move(law));
+  lpvmpcd::Assembly controller(untimed, route, lpvmpcd::MonotonicNow, std::move(law));
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);
   for (can::Time now{}; !recorder.finished(); now += config.loop.period) {

@@ -25,11 +25,11 @@ class CommandGateTest : public testing::Test {
   }
 };
 
-TEST_F(CommandGateTest, EnablesInActiveAndSafeStopAlone) {
+TEST_F(CommandGateTest, EnablesInActiveDegradedAndSafeStopAlone) {
   for (const Mode mode :
        {Mode::kInit, Mode::kStandby, Mode::kActive, Mode::kDegraded, Mode::kSafeStop, Mode::kFault}) {
     ASSERT_TRUE(Encode(mode));
-    const bool enable = mode == Mode::kActive || mode == Mode::kSafeStop;
+    const bool enable = mode == Mode::kActive || mode == Mode::kDegraded || mode == Mode::kSafeStop;
     const auto steering = Decode<dbc::SteeringCommand>(frames_[0]);
     EXPECT_EQ(steering.enable, enable);
     EXPECT_EQ(steering.mode, mode);

@@ -63,10 +63,12 @@ std::vector<Eigen::Vector2d> StraightRoute() {
 
 class ControlLoopTest : public testing::Test {
  protected:
+  static constexpr std::size_t kWithoutHorizon = 5;  // frames of a cycle
   struct Sent {
     dbc::SteeringCommand steering;
     dbc::AccelerationCommand acceleration;
     dbc::ControllerStatus status;
+    dbc::ControllerDiagnostics diagnostics;
     std::size_t frames = 0;
   };
 
@@ -79,11 +81,13 @@ class ControlLoopTest : public testing::Test {
   Sent Read(std::span<const can::Frame> frames) const {
     Sent sent;
     sent.frames = frames.size();
-    EXPECT_GE(frames.size(), 4U);
+    EXPECT_GE(frames.size(), kWithoutHorizon);
     sent.steering = Decode<dbc::SteeringCommand>(frames[0]);
     sent.acceleration = Decode<dbc::AccelerationCommand>(frames[1]);
     sent.status = Decode<dbc::ControllerStatus>(frames[2]);
-    const bool enabled = sent.steering.mode == Mode::kActive || sent.steering.mode == Mode::kSafeStop;
+    sent.diagnostics = Decode<dbc::ControllerDiagnostics>(frames[4]);
+    const bool enabled = sent.steering.mode == Mode::kActive || sent.steering.mode == Mode::kDegraded ||
+                         sent.steering.mode == Mode::kSafeStop;
     EXPECT_EQ(sent.steering.enable, enabled);
     EXPECT_EQ(sent.acceleration.enable, enabled);
     EXPECT_EQ(sent.acceleration.mode, sent.steering.mode);
@@ -168,7 +172,7 @@ TEST_F(ControlLoopTest, EngagedItSendsTheFirstInputOfANewPlanAndItsHorizon) {
   EXPECT_NEAR(sent.acceleration.acceleration, -0.1, 1e-4);
   EXPECT_EQ(sent.status.solver_status, dbc::SolverStatus::kSolved);
   EXPECT_EQ(sent.status.iterations, 7);
-  EXPECT_EQ(sent.frames, 4U + 1U + FakeController::kHorizon + 1U);
+  EXPECT_EQ(sent.frames, kWithoutHorizon + 1U + FakeController::kHorizon + 1U);
 
   // What the controller was given.
   EXPECT_EQ(controller_.resets, 1);
@@ -191,11 +195,11 @@ TEST_F(ControlLoopTest, HorizonFramesCarryThePlan) {
   for (const can::Frame& frame : vehicle_.All()) {
     if (!loop_.Receive(frame, now_)) continue;
     const auto frames = loop_.Cycle(now_, Trigger::kState);
-    const auto header = Decode<dbc::HorizonHeader>(frames[4]);
+    const auto header = Decode<dbc::HorizonHeader>(frames[kWithoutHorizon]);
     EXPECT_EQ(header.points, FakeController::kHorizon + 1);
     EXPECT_EQ(header.state_counter, vehicle_.last_state_counter());
     EXPECT_NEAR(header.step, 0.05, 1e-9);
-    const auto point = Decode<dbc::HorizonPoint>(frames[4 + 1 + 2]);
+    const auto point = Decode<dbc::HorizonPoint>(frames[kWithoutHorizon + 1 + 2]);
     EXPECT_EQ(point.index, 2);
     EXPECT_NEAR(point.X, 12.5, 1e-3);
   }
@@ -312,21 +316,27 @@ TEST_F(ControlLoopTest, FailedSolveIsAnsweredFromTheLastPlanAndThenByAStop) {
   controller_.status = control::SolverStatus::kInfeasible;
   for (int age = 1; age < FakeController::kHorizon; ++age) {
     const Sent sent = Period();
-    EXPECT_EQ(sent.steering.mode, Mode::kActive);
+    EXPECT_EQ(sent.steering.mode, Mode::kDegraded);
     EXPECT_EQ(sent.steering.plan_age, age);
     EXPECT_NEAR(sent.steering.delta, 0.01 * (age + 1), 1e-6);
     EXPECT_NEAR(sent.acceleration.acceleration, -0.1 * (age + 1), 1e-4);
     EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverInfeasible);
     EXPECT_EQ(sent.status.solver_status, dbc::SolverStatus::kInfeasible);
-    EXPECT_EQ(sent.frames, 4U);  // no horizon
+    EXPECT_EQ(sent.frames, kWithoutHorizon);
+    EXPECT_EQ(sent.diagnostics.cause, dbc::ModeCause::kSolverFailed);
+    EXPECT_EQ(sent.diagnostics.previous_mode, Mode::kActive);
+    EXPECT_NEAR(sent.diagnostics.countdown, 0.05 * (FakeController::kHorizon - 1 - age), 1e-9);
+    EXPECT_EQ(sent.diagnostics.plans_refused, age);
   }
   double a = -0.1 * FakeController::kHorizon;
   for (int i = 0; i < 5; ++i) {
     const Sent sent = Period();
     EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
     EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kPlanExhausted);
-    EXPECT_NEAR(sent.steering.delta, 0.01 * FakeController::kHorizon, 1e-6);  // held
-    a = std::max(-3.0, a - 1.5);                                              // no jump
+    EXPECT_NEAR(sent.diagnostics.countdown, 0.0, 1e-9);
+    EXPECT_NEAR(sent.steering.delta, std::max(0.0, 0.04 - 0.025 * (i + 1)),
+                1e-3);            // to the path, straight on
+    a = std::max(-3.0, a - 1.5);  // no jump
     EXPECT_NEAR(sent.acceleration.acceleration, a, 1e-4);
   }
 }
@@ -348,12 +358,13 @@ TEST_F(ControlLoopTest, PlanWithANanIsRefused) {
   controller_.poison = true;
   const Sent sent = Period();
   EXPECT_EQ(sent.steering.plan_age, 1);
-  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kSolverNumericalFailure);
-  EXPECT_EQ(loop_.report().solver_failures, 1U);
+  EXPECT_EQ(sent.steering.mode, Mode::kDegraded);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kPlanRejected);
+  EXPECT_EQ(loop_.report().plans_refused, 1U);
   controller_.poison = false;
   controller_.poison_input = true;
   EXPECT_EQ(Period().steering.plan_age, 2);
-  EXPECT_EQ(loop_.report().solver_failures, 2U);
+  EXPECT_EQ(loop_.report().plans_refused, 2U);
 }
 
 TEST_F(ControlLoopTest, WithoutAFirstPlanItDoesNotEngage) {
@@ -379,7 +390,8 @@ TEST_F(ControlLoopTest, MissingStateIsBridgedByThePlanAndThenStopsTheVehicle) {
   Engage();
   for (int age = 1; age <= 3; ++age) {
     const Sent sent = TimerPeriod();
-    EXPECT_EQ(sent.steering.mode, Mode::kActive);
+    EXPECT_EQ(sent.steering.mode, Mode::kDegraded);
+    EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kStateLate);
     EXPECT_EQ(sent.steering.plan_age, age);
     EXPECT_NEAR(sent.steering.delta, 0.01 * (age + 1), 1e-6);
   }
@@ -409,28 +421,64 @@ TEST_F(ControlLoopTest, CorruptedStateStopsTheVehicleAndIsNamed) {
   EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kStateInvalid);
 }
 
-TEST_F(ControlLoopTest, StaleObstaclesAndStaleRequestStopTheVehicle) {
+// One after another: healthy for three periods, then stale; so long in Degraded, then a stop.
+TEST_F(ControlLoopTest, StaleObstaclesAreDoneWithoutForASecondThenTheVehicleIsStopped) {
   Engage();
-  Sent sent;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 24; ++i) {
     Advance();
     Give(vehicle_.Request());
-    sent = Give(vehicle_.State());
+    const Sent sent = Give(vehicle_.State());
+    EXPECT_EQ(sent.steering.mode, i < 3 ? Mode::kActive : i < 23 ? Mode::kDegraded : Mode::kSafeStop) << i;
+    EXPECT_EQ(sent.status.fault_code, i < 3 ? dbc::FaultCode::kNone : dbc::FaultCode::kObstaclesStale);
+    if (i >= 3) {
+      EXPECT_NEAR(sent.diagnostics.countdown, std::max(0.05 * (22 - i), 0.0), 1e-9);
+    }
+    if (i < 23) {
+      EXPECT_EQ(sent.steering.plan_age, 0);  // plans go on
+    }
   }
-  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
-  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kObstaclesStale);
 }
 
-TEST_F(ControlLoopTest, StaleRequestStopsTheVehicle) {
+TEST_F(ControlLoopTest, StaleRequestIsDoneWithoutForASecondThenTheVehicleIsStopped) {
   Engage();
   Sent sent;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 23; ++i) {
     Advance();
     Give(vehicle_.Obstacles());
     sent = Give(vehicle_.State());
   }
+  EXPECT_EQ(sent.steering.mode, Mode::kDegraded);
+  Advance();
+  Give(vehicle_.Obstacles());
+  sent = Give(vehicle_.State());
   EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
   EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kDriverRequestStale);
+}
+
+TEST_F(ControlLoopTest, RequestThatComesBackInTimeEndsDegraded) {
+  Engage();
+  for (int i = 0; i < 10; ++i) {
+    Advance();
+    Give(vehicle_.Obstacles());
+    Give(vehicle_.State());
+  }
+  EXPECT_EQ(loop_.report().mode, Mode::kDegraded);
+  EXPECT_EQ(Period().steering.mode, Mode::kActive);
+  EXPECT_EQ(loop_.report().cause, Cause::kRecovered);
+}
+
+TEST_F(ControlLoopTest, SafeStopEndsAtOnceWhenTheDriverTakesOver) {
+  for (const bool brake : {true, false}) {
+    Engage();
+    controller_.status = control::SolverStatus::kInfeasible;
+    for (int i = 0; i < 5; ++i) Period();
+    EXPECT_EQ(loop_.report().mode, Mode::kSafeStop);
+    vehicle_.request = {.engage = brake, .brake = brake};
+    EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+    EXPECT_EQ(loop_.report().cause, brake ? Cause::kOverride : Cause::kReleased);
+    controller_.status = control::SolverStatus::kSolved;
+    vehicle_.request = {};
+  }
 }
 
 TEST_F(ControlLoopTest, SafeStopFollowsTheRestOfThePlanAndEndsAtStandstill) {
@@ -481,9 +529,11 @@ TEST_F(ControlLoopTest, DaemonThatStoodStillForLongEnablesNoCommand) {
 }
 
 TEST_F(ControlLoopTest, EndOfTheRouteStopsTheVehicle) {
-  Engage();
+  double countdown = Engage().diagnostics.countdown;  // less than 10 s, the length of the route
   for (int i = 0; i < 300 && loop_.report().mode == Mode::kActive; ++i) {
-    Period();
+    const Sent sent = Period();
+    EXPECT_NEAR(sent.diagnostics.countdown, std::max(countdown - 0.05, 0.0), 1e-6);
+    countdown = sent.diagnostics.countdown;
   }
   EXPECT_EQ(loop_.report().mode, Mode::kSafeStop);
   EXPECT_EQ(loop_.report().cause, Cause::kRouteEnd);
@@ -542,20 +592,58 @@ TEST_F(ControlLoopTest, AnnouncingItselfIsNoCycle) {
   }
 }
 
-TEST_F(ControlLoopTest, CycleThatEndsLaterThanAPeriodAfterItsStateIsADeadlineMiss) {
+TEST_F(ControlLoopTest, PlanThatComesTooLateIsNotUsedAndTheLastOneGoesOn) {
   Engage();
-  stopwatch_step_ = 51ms;
-  EXPECT_EQ(Period().status.deadline_misses, 1);
-  stopwatch_step_ = 30ms;
+  stopwatch_step_ = 51ms;  // a period later: the command is that of the step that it is by now
   Sent sent = Period();
+  EXPECT_EQ(sent.steering.mode, Mode::kDegraded);
+  EXPECT_EQ(sent.steering.plan_age, 2);
+  EXPECT_EQ(sent.steering.state_counter, 15);
+  EXPECT_NEAR(sent.steering.delta, 0.03, 1e-6);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kDeadlineMissed);
+  EXPECT_EQ(sent.status.deadline_misses, 1);
+  EXPECT_EQ(sent.frames, kWithoutHorizon);
+  stopwatch_step_ = 30ms;
+  sent = Period();
+  EXPECT_EQ(sent.steering.mode, Mode::kActive);
+  EXPECT_EQ(sent.steering.plan_age, 0);
   EXPECT_EQ(sent.status.deadline_misses, 1);
   EXPECT_NEAR(sent.status.solve_time, 0.03, 1e-6);
-  // The state waited before it was looked at.
+}
+
+TEST_F(ControlLoopTest, StateThatHasWaitedTooLongGetsNoAnswerAndNoPlan) {
+  Engage();
+  const int steps = controller_.steps;
   Advance();
+  Sent sent;
+  for (const can::Frame& frame : vehicle_.All()) {
+    if (loop_.Receive(frame, now_)) sent = Read(loop_.Cycle(now_ + 60ms, Trigger::kState));
+  }
+  EXPECT_EQ(controller_.steps, steps);
+  EXPECT_EQ(sent.steering.state_counter, 15);
+  EXPECT_EQ(sent.steering.plan_age, 2);
+  EXPECT_EQ(sent.status.deadline_misses, 1);
+}
+
+TEST_F(ControlLoopTest, WaitingAndPlanningTogetherMayNotPassTheDeadline) {
+  Engage();
+  stopwatch_step_ = 30ms;
+  Advance();
+  Sent sent;
   for (const can::Frame& frame : vehicle_.All()) {
     if (loop_.Receive(frame, now_)) sent = Read(loop_.Cycle(now_ + 30ms, Trigger::kState));
   }
-  EXPECT_EQ(sent.status.deadline_misses, 2);
+  EXPECT_EQ(sent.status.deadline_misses, 1);
+  EXPECT_EQ(sent.steering.plan_age, 2);
+}
+
+TEST_F(ControlLoopTest, LatePlanDoesNotEngage) {
+  for (int i = 0; i < 5; ++i) Period();
+  vehicle_.request.engage = true;
+  stopwatch_step_ = 51ms;
+  const Sent sent = Period();
+  EXPECT_FALSE(sent.steering.enable);
+  EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kDeadlineMissed);
 }
 
 TEST_F(ControlLoopTest, NothingIsAllocatedInACycle) {
@@ -573,7 +661,7 @@ TEST_F(ControlLoopTest, NothingIsAllocatedInACycle) {
     static_cast<void>(loop_.Cycle(now_, Trigger::kTimer));
     allocations += Allocations() - before;
   }
-  EXPECT_EQ(loop_.report().mode, Mode::kActive);
+  EXPECT_TRUE(Drives(loop_.report().mode));
   EXPECT_EQ(allocations, 0U);
 }
 

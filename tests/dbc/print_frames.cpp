@@ -53,12 +53,14 @@ std::array<dbc::Message, std::variant_size_v<dbc::Message>> RandomMessages(Value
           dbc::DriverRequest{v.Bool(), v.Bool(), v.Bool()},
           dbc::SteeringCommand{v.Bool(), v.One(dbc::Mode::kFault), v.Byte(16), v.Byte(64), v.Real()},
           dbc::AccelerationCommand{v.Bool(), v.One(dbc::Mode::kFault), v.Byte(16), v.Byte(64), v.Real()},
-          dbc::ControllerStatus{v.One(dbc::Mode::kFault), v.One(dbc::FaultCode::kInternalError),
+          dbc::ControllerStatus{v.One(dbc::Mode::kFault), v.One(dbc::FaultCode::kPlanRejected),
                                 v.One(dbc::SolverStatus::kNumericalFailure), v.Byte(256), v.Real() * 1e-3,
                                 v.Byte(256)},
           dbc::SchedulingHealth{v.Real(), v.Byte(256), v.Real()},
           dbc::HorizonHeader{v.Byte(128), v.Byte(16), v.Real()},
-          dbc::HorizonPoint{v.Byte(128), v.Real(), v.Real()}};
+          dbc::HorizonPoint{v.Byte(128), v.Real(), v.Real()},
+          dbc::ControllerDiagnostics{v.One(dbc::ModeCause::kPlanRejected), v.One(dbc::Mode::kFault), v.Real(),
+                                     v.Byte(7), v.Byte(10), v.Real(), v.Byte(256)}};
 }
 
 }  // namespace

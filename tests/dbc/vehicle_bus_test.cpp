@@ -41,7 +41,7 @@ const std::vector<dbc::Message>& Samples() {
                                .plan_age = 2,
                                .acceleration = -9.81},
       dbc::ControllerStatus{.mode = dbc::Mode::kSafeStop,
-                            .fault_code = dbc::FaultCode::kInternalError,
+                            .fault_code = dbc::FaultCode::kPlanRejected,
                             .solver_status = dbc::SolverStatus::kNumericalFailure,
                             .iterations = 255,
                             .solve_time = 0.000042,
@@ -49,6 +49,13 @@ const std::vector<dbc::Message>& Samples() {
       dbc::SchedulingHealth{.scheduling_error = 1.5, .active_rows = 600, .largest_slack = 0.125},
       dbc::HorizonHeader{.points = 9, .state_counter = 7, .step = 0.05},
       dbc::HorizonPoint{.index = 8, .X = 100.125, .Y = -2000.0},
+      dbc::ControllerDiagnostics{.cause = dbc::ModeCause::kPlanRejected,
+                                 .previous_mode = dbc::Mode::kDegraded,
+                                 .countdown = 0.35,
+                                 .faulty_message = 6,
+                                 .frame_fault = 9,
+                                 .cycle_latency = 0.0123,
+                                 .plans_refused = 1023},
   };
   return kSamples;
 }
@@ -231,7 +238,7 @@ TEST(VehicleBus, MultiplexorAndEnumerationWithoutSuchValueDoNotDecode) {
 
 TEST(VehicleBus, MessagesAreToldWithIdPeriodAndDistinctDataIds) {
   const dbc::VehicleBus bus;
-  ASSERT_EQ(bus.messages().size(), 11u);
+  ASSERT_EQ(bus.messages().size(), 12u);
   std::set<std::uint16_t> data_ids;
   for (const dbc::MessageInfo& info : bus.messages()) {
     EXPECT_EQ(info.length, 8);

@@ -72,7 +72,8 @@ TEST_F(VehicleDbc, EveryRangeIsHeldByTheBits) {
 
 TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   for (const dbc::MessageDefinition& message : database_.messages) {
-    for (const char* name : {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Part", "Page"}) {
+    for (const char* name : {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Part", "Page", "Cause",
+                             "PreviousMode", "FaultyMessage", "FrameFault"}) {
       const dbc::Signal* signal = message.Find(name);
       if (signal == nullptr) continue;
       EXPECT_EQ(signal->values.size(), static_cast<std::size_t>(signal->max) + 1) << name;
@@ -81,7 +82,11 @@ TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   const dbc::Signal* fault = database_.Find("ControllerStatus")->Find("FaultCode");
   EXPECT_EQ(fault->values.at(static_cast<int>(dbc::FaultCode::kBusDown)), "BusDown");
   EXPECT_EQ(fault->values.at(static_cast<int>(dbc::FaultCode::kInternalError)), "InternalError");
-  EXPECT_EQ(fault->max, static_cast<double>(dbc::FaultCode::kInternalError));
+  EXPECT_EQ(fault->max, static_cast<double>(dbc::FaultCode::kPlanRejected));
+  const dbc::Signal* cause = database_.Find("ControllerDiagnostics")->Find("Cause");
+  EXPECT_EQ(cause->values.at(static_cast<int>(dbc::ModeCause::kReleased)), "RequestWithdrawn");
+  EXPECT_EQ(cause->values.at(static_cast<int>(dbc::ModeCause::kSilent)), "Silent");
+  EXPECT_EQ(cause->max, static_cast<double>(dbc::ModeCause::kPlanRejected));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "can/socket.hpp"
+#include "daemon/mode_machine.hpp"
 #include "dbc/vehicle_bus.hpp"
 #include "tests/daemon/bus_frames.hpp"
 #include "tests/support/process.hpp"
@@ -56,7 +57,7 @@ class DaemonOnBus : public testing::Test {
   }
 
   // Reads the next pair of commands; nothing if there is none in time. Holds what holds of every pair: CRC,
-  // counters in sequence, both alike, enabled in Active and SafeStop alone. Notes the status that comes by.
+  // counters in sequence, both alike, enabled in Active, Degraded and SafeStop alone. Notes the status that comes by.
   std::optional<CommandPair> NextPair(std::chrono::milliseconds timeout = 2s) {
     const auto end = steady_clock::now() + timeout;
     can::Received received;
@@ -87,8 +88,7 @@ class DaemonOnBus : public testing::Test {
         EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
         EXPECT_EQ(check.counter, command_counter_);
         pair_.acceleration = *acceleration;
-        const bool enable =
-            pair_.steering.mode == dbc::Mode::kActive || pair_.steering.mode == dbc::Mode::kSafeStop;
+        const bool enable = Commands(pair_.steering.mode);
         EXPECT_EQ(pair_.steering.enable, enable);
         EXPECT_EQ(pair_.acceleration.enable, enable);
         EXPECT_EQ(pair_.acceleration.mode, pair_.steering.mode);

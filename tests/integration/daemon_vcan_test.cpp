@@ -62,7 +62,7 @@ TEST_F(DaemonVcan, StaleStateIsBridgedByThePlanAndThenEndsInAControlledStop) {
   const auto pairs = UntilSafeStop([] { return std::vector<can::Frame>{}; });
   ASSERT_GE(pairs.size(), 2U);
   for (std::size_t i = 0; i + 1 < pairs.size(); ++i) {
-    EXPECT_EQ(pairs[i].steering.mode, Mode::kActive);
+    EXPECT_EQ(pairs[i].steering.mode, Mode::kDegraded);
     EXPECT_EQ(pairs[i].steering.state_counter, 15);
     EXPECT_EQ(pairs[i].steering.plan_age, i + 1);
   }
@@ -96,7 +96,7 @@ TEST_F(DaemonVcan, CorruptedStatesChangeNothingAndManyOfThemStopTheVehicle) {
   };
   PeriodWithoutState(corrupted());
   while (const auto pair = NextPair(1ms)) {
-    EXPECT_EQ(pair->steering.mode, Mode::kActive);
+    EXPECT_EQ(pair->steering.mode, Mode::kDegraded);
     EXPECT_EQ(pair->steering.state_counter, 15);
   }
   EXPECT_EQ(Period().steering.mode, Mode::kActive);  // a single one is bridged
