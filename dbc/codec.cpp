@@ -81,6 +81,11 @@ std::uint64_t ToFloat(const Signal& signal, double scaled, bool& saturated) {
                                             : std::bit_cast<std::uint64_t>(held);
 }
 
+std::uint64_t ToRaw(const Signal& signal, double value, bool& saturated) {
+  const double scaled = (value - signal.offset) / signal.factor;
+  return IsFloat(signal) ? ToFloat(signal, scaled, saturated) : ToInteger(signal, scaled, saturated);
+}
+
 }  // namespace
 
 bool Fits(const Signal& signal, std::size_t payload_bytes) {
@@ -138,11 +143,17 @@ EncodeStatus EncodeSignal(const Signal& signal, double value, std::span<std::byt
   if (!std::isfinite(value)) return EncodeStatus::kNotFinite;
   const double held = signal.HasRange() ? std::clamp(value, signal.min, signal.max) : value;
   bool saturated = held != value;
-  const double scaled = (held - signal.offset) / signal.factor;
-  const std::uint64_t raw =
-      IsFloat(signal) ? ToFloat(signal, scaled, saturated) : ToInteger(signal, scaled, saturated);
-  WriteRaw(signal, raw, payload);
+  WriteRaw(signal, ToRaw(signal, held, saturated), payload);
   return saturated ? EncodeStatus::kSaturated : EncodeStatus::kOk;
+}
+
+bool InRange(const Signal& signal, std::span<const std::byte> payload) {
+  const double value = DecodeSignal(signal, payload);
+  if (!std::isfinite(value)) return false;
+  if (!signal.HasRange() || (signal.min <= value && value <= signal.max)) return true;
+  // An end of the range, rounded to what the signal holds, may lie beyond it.
+  bool saturated = false;
+  return ReadRaw(signal, payload) == ToRaw(signal, std::clamp(value, signal.min, signal.max), saturated);
 }
 
 bool IsPresent(const MessageDefinition& message, const Signal& signal, std::span<const std::byte> payload) {

@@ -36,6 +36,10 @@ void WriteRaw(const Signal& signal, std::uint64_t raw, std::span<std::byte> payl
 // factor.)
 [[nodiscard]] EncodeStatus EncodeSignal(const Signal& signal, double value, std::span<std::byte> payload);
 
+// False if the value is not finite or lies outside [min|max] where the signal has one. What EncodeSignal writes is
+// in range, rounded as it is.
+[[nodiscard]] bool InRange(const Signal& signal, std::span<const std::byte> payload);
+
 // False for a multiplexed signal whose multiplexor, itself present, says that other signals stand in the
 // payload.
 [[nodiscard]] bool IsPresent(const MessageDefinition& message, const Signal& signal,

@@ -203,6 +203,18 @@ struct VehicleBus::Binding {
     const auto found = std::ranges::find(messages, id, &BoundMessage::id);
     return found == messages.end() ? nullptr : &*found;
   }
+
+  // Index of the typed message that the payload carries; kTypes if it carries none.
+  [[nodiscard]] std::size_t FindType(std::uint32_t id, std::span<const std::byte> payload) const {
+    const BoundMessage* bound = Find(id);
+    if (bound == nullptr || payload.size() < bound->length) return kTypes;
+    const auto carried = [&](std::size_t index) {
+      const BoundType& type = types[index];
+      return type.multiplexor == nullptr || ReadRaw(*type.multiplexor, payload) == type.multiplexor_value;
+    };
+    const auto found = std::ranges::find_if(bound->types, carried);
+    return found == bound->types.end() ? kTypes : *found;
+  }
 };
 
 VehicleBus::VehicleBus() : VehicleBus(Parse(BuiltInDbc(), "vehicle.dbc")) {}
@@ -247,15 +259,16 @@ E2eCheck VehicleBus::Check(std::uint32_t id, std::span<const std::byte> payload)
 }
 
 std::optional<Message> VehicleBus::Decode(std::uint32_t id, std::span<const std::byte> payload) const {
-  const BoundMessage* bound = binding_->Find(id);
-  if (bound == nullptr || payload.size() < bound->length) return std::nullopt;
-  for (const std::size_t index : bound->types) {
-    const BoundType& type = binding_->types[index];
-    if (type.multiplexor == nullptr || ReadRaw(*type.multiplexor, payload) == type.multiplexor_value) {
-      return kDecoders[index](type, payload);
-    }
-  }
-  return std::nullopt;
+  const std::size_t index = binding_->FindType(id, payload);
+  if (index == kTypes) return std::nullopt;
+  return kDecoders[index](binding_->types[index], payload);
+}
+
+bool VehicleBus::InRange(std::uint32_t id, std::span<const std::byte> payload) const {
+  const std::size_t index = binding_->FindType(id, payload);
+  return index == kTypes || std::ranges::all_of(binding_->types[index].signals, [&](const Signal* signal) {
+           return dbc::InRange(*signal, payload);
+         });
 }
 
 const std::vector<MessageInfo>& VehicleBus::messages() const {

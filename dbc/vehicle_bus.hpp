@@ -73,6 +73,9 @@ class VehicleBus {
   // judge.
   [[nodiscard]] E2eCheck Check(std::uint32_t id, std::span<const std::byte> payload) const;
 
+  // False if a value that Decode would tell lies outside the range that the DBC gives it, or is not finite.
+  [[nodiscard]] bool InRange(std::uint32_t id, std::span<const std::byte> payload) const;
+
   // Nothing if the id is not one of ours, the payload is too short, or a multiplexor or enumeration has no
   // such value.
   [[nodiscard]] std::optional<Message> Decode(std::uint32_t id, std::span<const std::byte> payload) const;

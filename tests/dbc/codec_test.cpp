@@ -197,6 +197,48 @@ TEST(Codec, RangeOfZeroToZeroAndMinAboveMaxAreNoRange) {
   EXPECT_EQ(dbc::ReadRaw(signal, payload), 200u);
 }
 
+TEST(Codec, EveryValueBeyondTheRangeIsOutOfRangeAndNoOther) {
+  for (const double offset : {0.0, -0.5}) {
+    Signal signal = Make(16, ValueType::kSigned, 0.01, offset);
+    signal.min = -1.0;
+    signal.max = 2.0;
+    Payload payload{};
+    const int from = static_cast<int>(std::lround((signal.min - offset) * 100.0));
+    const int to = static_cast<int>(std::lround((signal.max - offset) * 100.0));
+    for (int raw = -32768; raw < 32768; ++raw) {
+      dbc::WriteRaw(signal, static_cast<std::uint64_t>(raw), payload);
+      ASSERT_EQ(dbc::InRange(signal, payload), from <= raw && raw <= to) << raw;
+    }
+  }
+}
+
+TEST(Codec, EndOfTheRangeThatTheBitsDoNotHoldExactlyIsInRangeAsItIsEncoded) {
+  Signal integer = Make(8, ValueType::kUnsigned, 0.3);
+  integer.max = 1.1;  // encoded as 1.2
+  Signal real = Make(32, ValueType::kFloat32);
+  real.max = 0.1;  // a float32 holds a little more
+  Payload payload{};
+  for (const Signal& signal : {integer, real}) {
+    EXPECT_EQ(dbc::EncodeSignal(signal, 99.0, payload), EncodeStatus::kSaturated);
+    EXPECT_GT(dbc::DecodeSignal(signal, payload), signal.max);
+    EXPECT_TRUE(dbc::InRange(signal, payload));
+    dbc::WriteRaw(signal, dbc::ReadRaw(signal, payload) + 1, payload);
+    EXPECT_FALSE(dbc::InRange(signal, payload));
+  }
+}
+
+TEST(Codec, WithoutARangeEveryNumberIsInRangeAndNothingElse) {
+  Payload payload{};
+  const Signal real = Make(64, ValueType::kFloat64);
+  dbc::WriteRaw(real, std::bit_cast<std::uint64_t>(-1e300), payload);
+  EXPECT_TRUE(dbc::InRange(real, payload));
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    dbc::WriteRaw(real, std::bit_cast<std::uint64_t>(bad), payload);
+    EXPECT_FALSE(dbc::InRange(real, payload));
+  }
+}
+
 TEST(Codec, NotANumberAndInfinityWriteNothing) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const ValueType type :

@@ -236,6 +236,25 @@ TEST(VehicleBus, MultiplexorAndEnumerationWithoutSuchValueDoNotDecode) {
   }
 }
 
+TEST(VehicleBus, OwnFramesAreInRangeUntilOneOfTheirValuesIsNot) {
+  const dbc::VehicleBus bus;
+  dbc::RawMessage raw;
+  for (const dbc::Message& sample : Samples()) {
+    ASSERT_EQ(bus.Encode(sample, 0, raw), EncodeStatus::kOk);
+    EXPECT_TRUE(bus.InRange(raw.id, raw.Payload()));
+  }
+  const dbc::MessageDefinition& object = *bus.database().Find("ObstacleObject");
+  const dbc::Signal& heading = *object.Find("Heading");
+  ASSERT_EQ(bus.Encode(dbc::ObstacleShape{}, 0, raw), EncodeStatus::kOk);
+  dbc::WriteRaw(heading, 7854, raw.data);  // 3.1416
+  EXPECT_TRUE(bus.InRange(raw.id, raw.Payload()));
+  dbc::WriteRaw(heading, 7855, raw.data);
+  EXPECT_FALSE(bus.InRange(raw.id, raw.Payload()));
+  // The same bits in the frame of a position are part of a Y.
+  dbc::WriteRaw(*object.Find("Part"), 0, raw.data);
+  EXPECT_TRUE(bus.InRange(raw.id, raw.Payload()));
+}
+
 TEST(VehicleBus, MessagesAreToldWithIdPeriodAndDistinctDataIds) {
   const dbc::VehicleBus bus;
   ASSERT_EQ(bus.messages().size(), 12u);
