@@ -8,7 +8,7 @@
 
 #include "can/socket.hpp"
 #include "tests/can/bus.hpp"
-#include "tests/daemon/allocations.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace can {
 namespace {
@@ -16,11 +16,11 @@ namespace {
 TEST(SocketOnVcan, SendAndReceiveDoNotAllocate) {
   Socket socket("vcan0", {.receive_own = true});
   Received received;
-  const std::size_t before = lpvmpcd::Allocations();
+  const std::size_t before = test_support::Allocations();
   const SendStatus sent = socket.Send(MakeFrame(0x10, {1, 2}));
   const ReceiveStatus first = socket.Receive(received);
   const ReceiveStatus second = socket.Receive(received);
-  EXPECT_EQ(lpvmpcd::Allocations(), before);
+  EXPECT_EQ(test_support::Allocations(), before);
   EXPECT_EQ(sent, SendStatus::kSent);
   EXPECT_EQ(first, ReceiveStatus::kFrame);
   EXPECT_EQ(second, ReceiveStatus::kWouldBlock);

@@ -1,4 +1,4 @@
-// Nothing in the control step takes memory from the heap: neither by operator new (tests/daemon/allocations.hpp) nor
+// Nothing in the control step takes memory from the heap: neither by operator new (tests/support/allocations.hpp) nor
 // by malloc and its kin, which Eigen calls for a matrix of dynamic size and which the linker's --wrap leads here.
 #include <cstddef>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include "gtest/gtest.h"
 #include "tests/control/closed_loop.hpp"
 #include "tests/control/qp_instance.hpp"
-#include "tests/daemon/allocations.hpp"
+#include "tests/support/allocations.hpp"
 
 static std::size_t c_allocations = 0;
 
@@ -38,7 +38,7 @@ namespace {
 using testing::ClosedLoop;
 
 std::size_t Taken() {
-  return lpvmpcd::Allocations() + c_allocations;
+  return test_support::Allocations() + c_allocations;
 }
 
 TEST(Allocations, AreCounted) {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "tests/daemon/allocations.hpp"
 #include "tests/daemon/bus_frames.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace lpvmpcd {
 namespace {
@@ -654,12 +654,12 @@ TEST_F(ControlLoopTest, NothingIsAllocatedInACycle) {
     Advance();
     controller_.status = i % 3 == 0 ? control::SolverStatus::kInfeasible : control::SolverStatus::kSolved;
     const auto frames = vehicle_.All();
-    const std::size_t before = Allocations();
+    const std::size_t before = test_support::Allocations();
     for (const can::Frame& frame : frames) {
       if (loop_.Receive(frame, now_)) static_cast<void>(loop_.Cycle(now_, Trigger::kState));
     }
     static_cast<void>(loop_.Cycle(now_, Trigger::kTimer));
-    allocations += Allocations() - before;
+    allocations += test_support::Allocations() - before;
   }
   EXPECT_TRUE(Drives(loop_.report().mode));
   EXPECT_EQ(allocations, 0U);

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-namespace lpvmpcd {
+namespace test_support {
 
 // Calls of operator new since the program began.
 [[nodiscard]] std::size_t Allocations();
 
-}  // namespace lpvmpcd
+}  // namespace test_support

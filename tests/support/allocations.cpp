@@ -1,4 +1,4 @@
-#include "tests/daemon/allocations.hpp"
+#include "tests/support/allocations.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -38,10 +38,10 @@ void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
 
-namespace lpvmpcd {
+namespace test_support {
 
 std::size_t Allocations() {
   return allocations;
 }
 
-}  // namespace lpvmpcd
+}  // namespace test_support
