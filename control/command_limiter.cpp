@@ -14,14 +14,9 @@ double Clamp(double value, double lo, double hi, bool& limited) {
 }  // namespace
 
 LimitResult CommandLimiter::Limit(const Input& wanted, const Input& applied, int age) const {
+  if (!wanted.allFinite() || !applied.allFinite()) return {};  // kNotFinite
+  if (age < 0 || age > limits_.max_age) return {.status = LimitStatus::kTooOld};
   LimitResult result;
-  if (!wanted.allFinite() || !applied.allFinite()) {
-    return result;
-  }
-  if (age < 0 || age > limits_.max_age) {
-    result.status = LimitStatus::kTooOld;
-    return result;
-  }
   const CommandLimits& l = limits_;
   // Rate about a value within range stays within range: both hold at the end.
   const double delta_applied = std::clamp(applied[kDelta], -l.max_steering, l.max_steering);

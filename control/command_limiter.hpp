@@ -1,4 +1,4 @@
-// The last judge of a command: range, rate and age. Only a limiter can make a LimitedCommand, and only a
+// The last judge of a command: range, rate (of the acceleration: jerk) and age. Only a limiter can make a LimitedCommand, and only a
 // LimitedCommand can be sent.
 //
 // Limits are those of the paper (Section V, table of h^u, and the rate limits in the text): |δ| ≤ 34π/180,
@@ -18,7 +18,8 @@ struct CommandLimits {
   double max_steering_step = 25.0 * std::numbers::pi / 180.0;  // |δ_k − δ_{k−1}| a cycle [rad]
   double min_acceleration = -6.0;                              // [m/s²]
   double max_acceleration = 2.0;                               // [m/s²]
-  double max_acceleration_step = 1.5;                          // |a_k − a_{k−1}| a cycle [m/s²]
+  // |a_k − a_{k−1}| a cycle [m/s²]: the limit of the jerk times the period, 1.5 m/s² in 50 ms are 30 m/s³.
+  double max_acceleration_step = 1.5;
   int max_age = 200;  // cycles since the plan behind the command was made
 };
 
@@ -43,7 +44,7 @@ enum class LimitStatus : std::uint8_t {
 
 struct LimitResult {
   LimitStatus status = LimitStatus::kNotFinite;
-  std::optional<LimitedCommand> command;  // none if refused
+  std::optional<LimitedCommand> command{};  // none if refused
   bool steering_range = false;
   bool steering_rate = false;
   bool acceleration_range = false;

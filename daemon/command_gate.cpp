@@ -1,7 +1,6 @@
 #include "daemon/command_gate.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 
 #include "daemon/mode_machine.hpp"
@@ -14,32 +13,27 @@ CommandGate::CommandGate(const dbc::VehicleBus& bus) : bus_(&bus) {
                                                            "ControllerStatus",      "SchedulingHealth",
                                                            "ControllerDiagnostics", "PlannedHorizon"};
   for (std::size_t i = 0; i < kTxMessages; ++i) {
-    const dbc::MessageInfo* info = bus.Find(std::string(kNames[i]));
-    if (info == nullptr) {
-      throw std::runtime_error(std::string("the DBC lacks the message ") + kNames[i]);
-    }
-    ids_[i] = info->id;
+    ids_[i] = bus.Find(std::string(kNames[i]))->id;  // every bus has our messages
   }
 }
 
 bool CommandGate::Encode(const control::LimitedCommand& command, const Answer& answer,
                          std::span<can::Frame, 2> out) {
   const bool enable = Commands(answer.mode);
-  const auto age = std::min<std::uint8_t>(answer.plan_age, 63);
-  return Encode(kSteering,
-                dbc::SteeringCommand{.enable = enable,
-                                     .mode = answer.mode,
-                                     .state_counter = answer.state_counter,
-                                     .plan_age = age,
-                                     .delta = command.steering()},
-                out[0]) &&
-         Encode(kAcceleration,
-                dbc::AccelerationCommand{.enable = enable,
-                                         .mode = answer.mode,
-                                         .state_counter = answer.state_counter,
-                                         .plan_age = age,
-                                         .acceleration = command.acceleration()},
-                out[1]);
+  const std::array<dbc::Message, 2> pair{dbc::SteeringCommand{.enable = enable,
+                                                              .mode = answer.mode,
+                                                              .state_counter = answer.state_counter,
+                                                              .plan_age = answer.plan_age,
+                                                              .delta = command.steering()},
+                                         dbc::AccelerationCommand{.enable = enable,
+                                                                  .mode = answer.mode,
+                                                                  .state_counter = answer.state_counter,
+                                                                  .plan_age = answer.plan_age,
+                                                                  .acceleration = command.acceleration()}};
+  for (const Tx tx : {kSteering, kAcceleration}) {
+    if (!Encode(tx, pair[tx], out[tx])) return false;
+  }
+  return true;
 }
 
 bool CommandGate::Encode(const dbc::ControllerStatus& status, can::Frame& out) {
@@ -64,7 +58,8 @@ bool CommandGate::Encode(const dbc::HorizonPoint& point, can::Frame& out) {
 
 bool CommandGate::MaySend(const can::Frame& frame) const {
   return frame.kind == can::FrameKind::kData && !frame.extended && !frame.fd &&
-         std::ranges::find(ids_, frame.id) != ids_.end();
+         std::ranges::find(ids_, frame.id) != ids_.end() &&
+         bus_->Check(frame.id, frame.Payload()).verdict == dbc::E2eVerdict::kOk;
 }
 
 bool CommandGate::Encode(Tx tx, const dbc::Message& message, can::Frame& out) {

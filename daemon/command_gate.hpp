@@ -1,5 +1,6 @@
-// The only way of a command onto the bus: takes what the limiter passed, sets `enable` in the modes that
-// command alone (Active, Degraded, SafeStop), protects it end to end.
+// The only way onto the bus. Makes the frames: takes a command only from the limiter, which judged its range, rate and
+// age, sets `enable` in the modes that command (mode_machine.hpp) and in no other, protects it end to end. And lets
+// them through: the Transmitter asks of every frame whether it may be sent.
 #pragma once
 
 #include <array>
@@ -16,12 +17,12 @@ namespace lpvmpcd {
 struct Answer {
   dbc::Mode mode = dbc::Mode::kInit;
   std::uint8_t state_counter = 15;  // 15: answers no state set
-  std::uint8_t plan_age = 63;       // cycles; 63: 63 or more, or no plan
+  std::uint8_t plan_age = 63;       // cycles; 63, which the frame has for anything above: or no plan
 };
 
 class CommandGate {
  public:
-  // Throws std::runtime_error that names the message that `bus` lacks. `bus` must outlive the gate.
+  // `bus` must outlive the gate.
   explicit CommandGate(const dbc::VehicleBus& bus);
 
   // SteeringCommand and AccelerationCommand, in this order. False: nothing may be sent, a value could not be
@@ -36,7 +37,8 @@ class CommandGate {
   [[nodiscard]] bool Encode(const dbc::HorizonHeader& header, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::HorizonPoint& point, can::Frame& out);
 
-  // True for the frames that this daemon may put on the bus: its six messages, as standard data frames.
+  // True for the frames that this daemon may put on the bus: its six messages, as standard data frames of the right
+  // length, with the CRC that the gate gave them.
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:

@@ -1,5 +1,19 @@
-// Judges every received frame before any of its values is used: identity, kind, length, CRC, counter, value
-// tables. A frame that fails changes no value and does not make its message look fresh.
+// Judges every received frame before any of its values is used. A frame that fails changes no value and does not make
+// its message look fresh. One table, a row a message, filled from the DBC; in this order it is demanded of a frame:
+//
+//   what                                          told by                         otherwise
+//   an id of the table                            BO_                             kUnknown
+//   a standard data frame of classic CAN                                          kWrongKind
+//   the length                                    BO_                             kWrongLength
+//   the CRC over data id and payload              E2EDataId                       kWrongCrc
+//   a counter from 0 to 14                                                        kInvalidCounter
+//   another counter than the frame before                                         kRepeated
+//   few enough counters left out                  max_lost                        kCounterJump
+//   every value a number, from min to max         SG_ ... [min|max]               kOutOfRange
+//   a multiplexor and enumerations that we know   SG_ ... m0, dbc/messages.hpp    kInvalidValue
+//
+// and of a message: a frame that passes within stale_periods of its period (GenMsgCycleTime), else it is no longer
+// fresh: late if none comes, refused if what comes fails.
 //
 // Counters go up by one, modulo 15, from frame to frame of a message. Up to `max_lost` frames may be missing
 // between two accepted ones (AUTOSAR E2E profile 1: MaxDeltaCounter). After a larger jump the message is
@@ -30,6 +44,8 @@ enum class RxMessage : std::uint8_t {
   kDriverRequest
 };
 inline constexpr std::size_t kRxMessages = 6;
+// As in the DBC.
+[[nodiscard]] std::string_view Name(RxMessage message);
 
 enum class RxFault : std::uint8_t {
   kUnknown,         // no message of ours has this id
@@ -39,9 +55,10 @@ enum class RxFault : std::uint8_t {
   kInvalidCounter,  // 15
   kRepeated,        // same counter as the frame before
   kCounterJump,     // more frames lost than allowed, or not yet in sequence again
-  kInvalidValue,    // a multiplexor or an enumeration without such a value
+  kInvalidValue,    // a multiplexor without such a value, or an enumeration without one that its range allows
+  kOutOfRange,      // a value beyond the range that the DBC gives it, or not finite
 };
-inline constexpr std::size_t kRxFaults = 8;
+inline constexpr std::size_t kRxFaults = 9;
 [[nodiscard]] std::string_view Name(RxFault fault);
 
 struct Accepted {
@@ -51,6 +68,18 @@ struct Accepted {
   int lost = 0;  // frames missing before this one
 };
 
+// How a message is received.
+struct Health {
+  enum class State : std::uint8_t {
+    kNeverSeen,  // no frame of it came since start
+    kFresh,
+    kLate,     // frames came, but none of late
+    kRefused,  // frames come, but have been failing for longer than an accepted one stays fresh
+  };
+  State state = State::kNeverSeen;
+  std::optional<RxFault> reason;  // of the last frame that was refused; none if none ever was
+};
+
 struct MonitorSettings {
   double stale_periods = 3.0;  // a message older than this many of its periods is stale; 1..1000
   int max_lost = 2;            // 0..13
@@ -58,8 +87,7 @@ struct MonitorSettings {
 
 class MessageMonitor {
  public:
-  // Throws std::runtime_error that names the message that `bus` lacks. `default_period` stands in where the
-  // DBC has no cycle time. `bus` must outlive the monitor.
+  // `default_period` stands in where the DBC has no cycle time. `bus` must outlive the monitor.
   MessageMonitor(const dbc::VehicleBus& bus, const MonitorSettings& settings, Time default_period);
 
   [[nodiscard]] std::variant<Accepted, RxFault> Check(const can::Frame& frame, Time now);
@@ -71,6 +99,7 @@ class MessageMonitor {
   [[nodiscard]] Time StaleAfter(RxMessage message) const;
   // A frame of this message failed within the time after which it would be stale.
   [[nodiscard]] bool RecentlyRejected(RxMessage message, Time now) const;
+  [[nodiscard]] Health HealthOf(RxMessage message, Time now) const;
 
   [[nodiscard]] std::uint64_t count(RxFault fault) const { return counts_[static_cast<std::size_t>(fault)]; }
   [[nodiscard]] std::uint64_t lost() const { return lost_; }  // frames, of all messages
@@ -78,25 +107,26 @@ class MessageMonitor {
   [[nodiscard]] std::array<std::uint32_t, kRxMessages> Ids() const;
 
  private:
-  struct Entry {
-    std::uint32_t id = 0;
+  struct Row {
+    const dbc::MessageInfo* info = nullptr;  // id, length, period, data id
     Time stale_after{};
-    bool received = false;       // a counter is known
-    bool accepted = false;       // a frame was accepted
-    std::uint8_t counter = 0;    // of the last frame with a good CRC
-    int in_sequence_wanted = 0;  // frames in sequence before the message is believed again
-    Time last{};                 // of the last accepted frame
-    bool rejected = false;
-    Time last_rejected{};
+    // What has come of it.
+    std::optional<std::uint8_t> counter;  // of the last frame with a good CRC
+    int in_sequence_wanted = 0;           // frames in sequence before the message is believed again
+    std::optional<Time> accepted_at;      // the last frame that passed
+    std::optional<RxFault> last_fault;
+    Time refused_at{};  // the frame of last_fault
   };
 
-  // Nothing if the frame passes; `lost` is set then.
-  [[nodiscard]] std::optional<RxFault> Judge(Entry& entry, const can::Frame& frame, std::uint8_t& counter,
-                                             int& lost);
+  [[nodiscard]] const Row& RowOf(RxMessage message) const {
+    return table_[static_cast<std::size_t>(message)];
+  }
+  // Nothing if the frame passes: then `out` has all but its kind.
+  [[nodiscard]] std::optional<RxFault> Judge(Row& row, const can::Frame& frame, Accepted& out) const;
 
   const dbc::VehicleBus* bus_;
   int max_lost_;
-  std::array<Entry, kRxMessages> table_{};
+  std::array<Row, kRxMessages> table_{};
   std::array<std::uint64_t, kRxFaults> counts_{};
   std::uint64_t lost_ = 0;
 };

@@ -102,9 +102,7 @@ Service::Service(const ServiceSettings& settings, ControlLoop& loop)
       timer_(NewTimer()),
       retry_timer_(NewTimer()),
       epoll_(Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
-      transmitter_([this](const can::Frame& frame) {
-        return loop_->gate().MaySend(frame) ? socket_.Send(frame) : can::SendStatus::kInvalidFrame;
-      }),
+      transmitter_(loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }),
       last_empty_(MonotonicNow()) {
   for (const int fd : {socket_.fd(), signals_.get(), timer_.get(), retry_timer_.get()}) {
     epoll_event event{};

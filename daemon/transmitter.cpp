@@ -51,7 +51,7 @@ bool Transmitter::SendLast(std::span<const can::Frame> frames, const std::functi
 std::size_t Transmitter::SendInOrder(std::span<const can::Frame> frames) {
   status_ = can::SendStatus::kSent;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    status_ = send_(frames[i]);
+    status_ = gate_->MaySend(frames[i]) ? send_(frames[i]) : can::SendStatus::kInvalidFrame;
     if (status_ != can::SendStatus::kSent) {
       return i;
     }

@@ -1,4 +1,4 @@
-// Sends a cycle's frames and tells from it how the bus is: up if our commands go out, and in no other case.
+// Sends a cycle's frames, those that the gate lets through and no other, and tells from it how the bus is: up if our commands go out, and in no other case.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 
 #include "can/frame.hpp"
 #include "can/socket.hpp"
+#include "daemon/command_gate.hpp"
 
 namespace lpvmpcd {
 
@@ -18,7 +19,9 @@ class Transmitter {
  public:
   using SendFrame = std::function<can::SendStatus(const can::Frame&)>;
 
-  explicit Transmitter(SendFrame send) : send_(std::move(send)) {}
+  // `gate` must outlive the transmitter. A frame that may not be sent counts as one that the bus refuses
+  // (kInvalidFrame).
+  Transmitter(const CommandGate& gate, SendFrame send) : gate_(&gate), send_(std::move(send)) {}
 
   // In order, the pair of commands first; ends with the first frame that is not sent, so that neither an
   // acceleration goes out without its steering nor a report in place of a command. A full queue that refuses
@@ -38,6 +41,7 @@ class Transmitter {
  private:
   [[nodiscard]] std::size_t SendInOrder(std::span<const can::Frame> frames);
 
+  const CommandGate* gate_;
   SendFrame send_;
   BusState bus_ = BusState::kUp;
   can::SendStatus status_ = can::SendStatus::kSent;

@@ -1,5 +1,6 @@
 #include "daemon/transmitter.hpp"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -19,19 +20,36 @@ class TransmitterTest : public testing::Test {
   int room_ = 100;
   SendStatus otherwise_ = SendStatus::kQueueFull;
   std::vector<std::uint32_t> sent_;
-  Transmitter transmitter_{[this](const can::Frame& frame) {
-    if (room_ <= 0) return otherwise_;
-    --room_;
-    sent_.push_back(frame.id);
-    return SendStatus::kSent;
-  }};
-  const std::vector<can::Frame> cycle_{{.id = 1}, {.id = 2}, {.id = 3}, {.id = 4}};
-  const std::vector<can::Frame> pair_{{.id = 1}, {.id = 2}};
+  dbc::VehicleBus bus_;
+  CommandGate gate_{bus_};
+  Transmitter transmitter_{gate_, [this](const can::Frame& frame) {
+                             if (room_ <= 0) return otherwise_;
+                             --room_;
+                             sent_.push_back(frame.id);
+                             return SendStatus::kSent;
+                           }};
+  const std::vector<can::Frame> pair_ = Commands();
+  const std::vector<can::Frame> cycle_ = CommandsAndReports();
+  static constexpr std::uint32_t kSteering = 512, kAcceleration = 513, kStatus = 528, kHealth = 529;
+
+  std::vector<can::Frame> Commands() {
+    std::array<can::Frame, 2> pair;
+    const auto limited = control::CommandLimiter({}).Limit({0.0, 0.0}, {0.0, 0.0}, 0);
+    EXPECT_TRUE(gate_.Encode(*limited.command, {}, pair));
+    return {pair.begin(), pair.end()};
+  }
+  std::vector<can::Frame> CommandsAndReports() {
+    std::vector<can::Frame> frames = Commands();
+    frames.resize(4);
+    EXPECT_TRUE(gate_.Encode(dbc::ControllerStatus{}, frames[2]));
+    EXPECT_TRUE(gate_.Encode(dbc::SchedulingHealth{}, frames[3]));
+    return frames;
+  }
 };
 
 TEST_F(TransmitterTest, AllFramesGoOutInOrder) {
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
-  EXPECT_EQ(sent_, (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  EXPECT_EQ(sent_, (std::vector<std::uint32_t>{kSteering, kAcceleration, kStatus, kHealth}));
   EXPECT_EQ(transmitter_.unsent(), 0U);
 }
 
@@ -39,7 +57,7 @@ TEST_F(TransmitterTest, QueueTooShortForTheReportsIsNoBusDown) {
   for (int i = 0; i < 10; ++i) {
     Refill(3);
     EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
-    EXPECT_EQ(sent_, (std::vector<std::uint32_t>{1, 2, 3}));
+    EXPECT_EQ(sent_, (std::vector<std::uint32_t>{kSteering, kAcceleration, kStatus}));
   }
   EXPECT_EQ(transmitter_.unsent(), 10U);
 }
@@ -61,10 +79,23 @@ TEST_F(TransmitterTest, CommandsRefusedThreeTimesInARowAreABusDown) {
 
 TEST_F(TransmitterTest, NothingFollowsAFrameThatIsNotSent) {
   int calls = 0;
-  Transmitter transmitter(
-      [&calls](const can::Frame&) { return ++calls == 1 ? SendStatus::kQueueFull : SendStatus::kSent; });
+  Transmitter transmitter(gate_, [&calls](const can::Frame&) {
+    return ++calls == 1 ? SendStatus::kQueueFull : SendStatus::kSent;
+  });
   transmitter.Send(cycle_);
   EXPECT_EQ(calls, 1);  // no acceleration without its steering
+}
+
+TEST_F(TransmitterTest, WhatTheGateDoesNotLetThroughIsNotSent) {
+  std::vector<can::Frame> frames = cycle_;
+  frames[0].data[3] ^= std::byte{1};
+  EXPECT_EQ(transmitter_.Send(frames), BusState::kDown);
+  EXPECT_EQ(transmitter_.last_status(), SendStatus::kInvalidFrame);
+  EXPECT_FALSE(transmitter_.SendLast(frames, [] {}));
+  frames = cycle_;
+  frames[2].id = 0x100;
+  EXPECT_EQ(transmitter_.Send(frames), BusState::kDown);
+  EXPECT_EQ(sent_, (std::vector<std::uint32_t>{kSteering, kAcceleration}));
 }
 
 TEST_F(TransmitterTest, InterfaceThatIsDownOrGoneIsNamedAtOnceAndUpWithTheNextCommands) {
@@ -84,7 +115,7 @@ TEST_F(TransmitterTest, LastWordsAreTriedAgainWhileTheQueueIsFull) {
   Refill(0);
   int waits = 0;
   EXPECT_TRUE(transmitter_.SendLast(pair_, [&] { room_ = ++waits % 5 == 0 ? 1 : 0; }));
-  EXPECT_EQ(sent_, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(sent_, (std::vector<std::uint32_t>{kSteering, kAcceleration}));
   EXPECT_EQ(waits, 10);
 }
 
