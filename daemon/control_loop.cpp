@@ -113,6 +113,7 @@ bool ControlLoop::Receive(const can::Frame& frame, Time now) {
   // 3. A complete state set asks for a cycle.
   if (complete) {
     trigger_time_ = now;
+    steps_.CountState(states_.state().counter);  // here, so that a set counts that no cycle answers
   }
   return complete;
 }
@@ -126,10 +127,8 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   report_.plan_accepted = false;
   solve_ = nullptr;
 
-  // 1. Time: which step it is, by the counter of the state or, without a state, by the timer.
-  if (trigger == Trigger::kState) {
-    steps_.CountState(states_.state().counter);
-  } else {
+  // 1. Time: which step it is, by the counter of the state (Receive) or, without a state, by the timer.
+  if (trigger == Trigger::kTimer) {
     steps_.CountTimer();
   }
 

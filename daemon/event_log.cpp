@@ -8,8 +8,6 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <systemd/sd-daemon.h>
-
 namespace lpvmpcd {
 namespace {
 
@@ -116,37 +114,14 @@ void EventLog::Unsent(std::uint64_t total, Time now) {
   }
 }
 
-Notifier::Notifier() {
-  std::uint64_t microseconds = 0;
-  if (sd_watchdog_enabled(0, &microseconds) > 0) {
-    watchdog_period_ = std::chrono::microseconds(microseconds);
-  }
-}
-
-void Notifier::Ready() {
-  sd_notify(0, "READY=1");
-}
-
-void Notifier::Stopping() {
-  sd_notify(0, "STOPPING=1");
-}
-
-void Notifier::Cycle(const CycleReport& report, Time now) {
-  if (watchdog_period_ > 0s && now - last_watchdog_ >= watchdog_period_ / 4) {
-    last_watchdog_ = now;
-    sd_notify(0, "WATCHDOG=1");
-  }
-  const bool changed = report.mode != mode_ || report.fault != fault_;
-  if (told_ && !changed && now - last_status_ < 1s) {
-    return;
-  }
-  told_ = true;
-  last_status_ = now;
-  mode_ = report.mode;
-  fault_ = report.fault;
-  sd_notify(0, fmt::format("STATUS={}; {}; {} cycles, {} deadline misses", Name(mode_), Name(fault_),
-                           report.cycles, report.deadline_misses)
-                   .c_str());
+void EventLog::Times(const Latencies& latencies) {
+  const auto text = [](const LatencyHistogram& histogram) {
+    return fmt::format("median {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms",
+                       Milliseconds(histogram.Percentile(0.5)), Milliseconds(histogram.Percentile(0.99)),
+                       Milliseconds(histogram.max()));
+  };
+  spdlog::info("cycle latency {} of {} states; control step {} of {} plans", text(latencies.cycle),
+               latencies.cycle.count(), text(latencies.step), latencies.step.count());
 }
 
 std::string_view Name(dbc::FaultCode fault) {

@@ -1,5 +1,4 @@
-// What the daemon says: a line on stderr for each event, at most one a second for events that come in
-// numbers, and the mode to the service manager.
+// What the daemon says: a line for each event, at most one a second for events that come in numbers.
 #pragma once
 
 #include <array>
@@ -8,6 +7,7 @@
 #include <string_view>
 
 #include "daemon/control_loop.hpp"
+#include "daemon/latency_histogram.hpp"
 #include "daemon/time.hpp"
 
 namespace lpvmpcd {
@@ -36,30 +36,13 @@ class EventLog {
   void Dropped(std::uint64_t total, Time now);
   // Frames not sent because the transmit queue was full.
   void Unsent(std::uint64_t total, Time now);
+  // How quick the daemon has been since its start.
+  static void Times(const Latencies& latencies);
 
  private:
   std::array<EventCount, kRxFaults> rx_faults_;
   EventCount lost_, rejected_lists_, plans_refused_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;
-};
-
-// Tells the service manager (systemd) how the daemon is. Without one, nothing happens.
-class Notifier {
- public:
-  Notifier();
-
-  void Ready();
-  void Stopping();
-  // Mode and fault: at once when they change, otherwise once a second; and the watchdog's food if it asks for it.
-  void Cycle(const CycleReport& report, Time now);
-
- private:
-  Time watchdog_period_{};  // 0: no watchdog
-  Time last_watchdog_{};
-  Time last_status_{};
-  Mode mode_ = Mode::kInit;
-  dbc::FaultCode fault_ = dbc::FaultCode::kNone;
-  bool told_ = false;
 };
 
 // Text of a fault code for people.

@@ -5,62 +5,30 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <ctime>
 #include <spdlog/spdlog.h>
 #include <stdexcept>
 #include <sys/epoll.h>
 #include <sys/signalfd.h>
-#include <sys/timerfd.h>
 #include <thread>
+
+#include "daemon/system_call.hpp"
 
 namespace lpvmpcd {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kFramesAtOnce = 256;  // then the timer and the signals have their turn
+constexpr int kFramesAtOnce = 4096;  // more than a full receive buffer holds; then it is the timer's turn
 constexpr Time kRetryPeriod = 100ms;
-
-[[nodiscard]] int Checked(int result, const char* call) {
-  if (result < 0) {
-    throw std::runtime_error(std::string(call) + ": " + std::strerror(errno));
-  }
-  return result;
-}
-
-Time Read(clockid_t clock) {
-  timespec t{};
-  ::clock_gettime(clock, &t);
-  return std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
-}
 
 int BlockedSignals() {
   sigset_t set;
   sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
-  sigaddset(&set, SIGINT);
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+    sigaddset(&set, signal);
+  }
   ::sigprocmask(SIG_BLOCK, &set, nullptr);
   return Checked(::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC), "signalfd");
-}
-
-int NewTimer() {
-  return Checked(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC), "timerfd_create");
-}
-
-// Once after `first`, then every `every`; never if both are 0.
-void Set(const FileDescriptor& timer, Time first, Time every) {
-  const auto to_timespec = [](Time time) {
-    const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
-    return timespec{.tv_sec = seconds.count(), .tv_nsec = (time - seconds).count()};
-  };
-  const itimerspec spec{.it_interval = to_timespec(every), .it_value = to_timespec(first)};
-  static_cast<void>(Checked(::timerfd_settime(timer.get(), 0, &spec, nullptr), "timerfd_settime"));
-}
-
-// False if it had been set anew before it was read.
-bool Expired(const FileDescriptor& timer) {
-  std::uint64_t times = 0;
-  return ::read(timer.get(), &times, sizeof(times)) == sizeof(times);
 }
 
 can::SocketOptions Options(const ControlLoop& loop) {
@@ -90,21 +58,16 @@ const char* WhyDown(can::SendStatus status, int error) {
 
 }  // namespace
 
-Time MonotonicNow() {
-  return Read(CLOCK_MONOTONIC);
-}
-
 Service::Service(const ServiceSettings& settings, ControlLoop& loop)
     : settings_(settings),
       loop_(&loop),
       socket_(settings.interface, Options(loop)),
       signals_(BlockedSignals()),
-      timer_(NewTimer()),
-      retry_timer_(NewTimer()),
       epoll_(Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
-      transmitter_(loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }),
+      transmitter_(
+          loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }, MonotonicNow),
       last_empty_(MonotonicNow()) {
-  for (const int fd : {socket_.fd(), signals_.get(), timer_.get(), retry_timer_.get()}) {
+  for (const int fd : {socket_.fd(), signals_.get(), timer_.fd(), retry_timer_.fd()}) {
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.fd = fd;
@@ -115,7 +78,7 @@ Service::Service(const ServiceSettings& settings, ControlLoop& loop)
 void Service::Run() {
   spdlog::info("listening on {}{}", settings_.interface, settings_.lockstep ? " in lock step" : "");
   notifier_.Ready();
-  Set(timer_, settings_.timeout, 0s);
+  timer_.Set(settings_.timeout);
   for (;;) {
     std::array<epoll_event, 4> events{};
     const int n = ::epoll_wait(epoll_.get(), events.data(), static_cast<int>(events.size()), -1);
@@ -126,17 +89,17 @@ void Service::Run() {
       return std::any_of(events.begin(), events.begin() + std::max(n, 0),
                          [fd](const epoll_event& event) { return event.data.fd == fd; });
     };
-    if (ready(signals_.get())) {
+    if (ready(signals_.get()) && !ReactToSignals()) {
       break;
     }
     // The socket before the timer: a state that has come in the meantime sets the timer anew.
     if (ready(socket_.fd())) {
       ReadSocket();
     }
-    if (ready(timer_.get()) && Expired(timer_)) {
+    if (ready(timer_.fd()) && timer_.Expired()) {
       ReactToTimer();
     }
-    if (ready(retry_timer_.get()) && Expired(retry_timer_)) {
+    if (ready(retry_timer_.fd()) && retry_timer_.Expired()) {
       Retry();
     }
   }
@@ -144,49 +107,69 @@ void Service::Run() {
   SendLastWords();
   spdlog::info("stopped after {} cycles, {} deadline misses", loop_->report().cycles,
                loop_->report().deadline_misses);
+  log_.Times(latencies_);
+}
+
+bool Service::ReactToSignals() {
+  signalfd_siginfo signal{};
+  while (::read(signals_.get(), &signal, sizeof(signal)) == sizeof(signal)) {
+    if (signal.ssi_signo != SIGUSR1) {
+      return false;
+    }
+    log_.Times(latencies_);
+  }
+  return true;
 }
 
 Time Service::Now() const {
   return settings_.lockstep ? cycles_ * settings_.period : MonotonicNow();
 }
 
-Time Service::Received(const can::Frame& frame) const {
-  if (settings_.lockstep) {
-    return Now();
-  }
-  return ArrivalTime(MonotonicNow(), Read(CLOCK_REALTIME) - frame.timestamp, last_empty_);
-}
-
+// Of the states that wait here, after a pause, only the newest is answered: to the others the command would be late.
 void Service::ReadSocket() {
   const Time before = MonotonicNow();
+  bool complete = false;
   can::Received received;
   for (int i = 0; i < kFramesAtOnce; ++i) {
-    switch (socket_.Receive(received)) {
-      case can::ReceiveStatus::kFrame:
-        if (loop_->Receive(received.frame, Received(received.frame))) {
-          RunCycle(Trigger::kState);
-        }
-        break;
-      case can::ReceiveStatus::kWouldBlock:
-        last_empty_ = before;
-        return;
-      case can::ReceiveStatus::kInterfaceDown:
-        SetBus(BusState::kDown, "is down");
-        return;
-      case can::ReceiveStatus::kInterfaceGone:
-        SetBus(BusState::kGone, "is gone");
-        return;
-      case can::ReceiveStatus::kError:
-        SetBus(BusState::kDown, std::strerror(socket_.last_error()));
-        return;
+    const can::ReceiveStatus status = socket_.Receive(received);
+    if (status != can::ReceiveStatus::kFrame) {
+      ReactToEmptyQueue(status, before);
+      break;
     }
+    const Time arrival = ArrivalTime(MonotonicNow(), RealNow() - received.frame.timestamp, last_empty_);
+    if (loop_->Receive(received.frame, settings_.lockstep ? Now() : arrival)) {
+      complete = true;
+      state_arrival_ = arrival;
+    }
+  }
+  if (complete) {
+    RunCycle(Trigger::kState);
+  }
+}
+
+void Service::ReactToEmptyQueue(can::ReceiveStatus status, Time before) {
+  switch (status) {
+    case can::ReceiveStatus::kFrame:
+      break;
+    case can::ReceiveStatus::kWouldBlock:
+      last_empty_ = before;
+      break;
+    case can::ReceiveStatus::kInterfaceDown:
+      SetBus(BusState::kDown, "is down");
+      break;
+    case can::ReceiveStatus::kInterfaceGone:
+      SetBus(BusState::kGone, "is gone");
+      break;
+    case can::ReceiveStatus::kError:
+      SetBus(BusState::kDown, std::strerror(socket_.last_error()));
+      break;
   }
 }
 
 void Service::ReactToTimer() {
   if (settings_.lockstep && cycles_ == 0) {
     Send(loop_->Announce());  // the vehicle waits for a sign of life before its first state
-    Set(timer_, settings_.period, 0s);
+    timer_.Set(settings_.period);
   } else {
     RunCycle(Trigger::kTimer);
   }
@@ -195,11 +178,17 @@ void Service::ReactToTimer() {
 void Service::RunCycle(Trigger trigger) {
   Send(loop_->Cycle(Now(), trigger));
   Arm(trigger);
+  if (trigger == Trigger::kState && transmitter_.commands_left()) {
+    latencies_.cycle.Add(*transmitter_.commands_left() - state_arrival_);
+  }
+  if (loop_->report().solver != dbc::SolverStatus::kNone) {
+    latencies_.step.Add(loop_->report().step_time);
+  }
   const Time now = MonotonicNow();
   log_.Cycle(*loop_, trigger, now);
   log_.Dropped(socket_.dropped(), now);
   log_.Unsent(transmitter_.unsent(), now);
-  notifier_.Cycle(loop_->report(), now);
+  notifier_.Cycle(loop_->report(), latencies_, now);
   ++cycles_;
 }
 
@@ -227,9 +216,9 @@ void Service::SendLastWords() {
 
 void Service::Arm(Trigger last) {
   if (settings_.lockstep) {
-    Set(timer_, kLockstepTimeout, 0s);
+    timer_.Set(kLockstepTimeout);
   } else {
-    Set(timer_, last == Trigger::kState ? settings_.timeout : settings_.period, 0s);
+    timer_.Set(last == Trigger::kState ? settings_.timeout : settings_.period);
   }
 }
 
@@ -239,7 +228,7 @@ void Service::SetBus(BusState bus, const char* what) {
   }
   spdlog::log(bus > bus_ ? spdlog::level::err : spdlog::level::info, "{} {}", settings_.interface, what);
   const Time retry = bus == BusState::kGone ? kRetryPeriod : 0s;
-  Set(retry_timer_, retry, retry);
+  retry_timer_.Set(retry, retry);
   bus_ = bus;
   loop_->SetBusUp(bus == BusState::kUp);
 }

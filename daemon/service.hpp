@@ -7,9 +7,12 @@
 #include <string>
 
 #include "can/socket.hpp"
+#include "daemon/clock.hpp"
 #include "daemon/control_loop.hpp"
 #include "daemon/event_log.hpp"
 #include "daemon/file_descriptor.hpp"
+#include "daemon/latency_histogram.hpp"
+#include "daemon/notifier.hpp"
 #include "daemon/time.hpp"
 #include "daemon/transmitter.hpp"
 
@@ -27,23 +30,21 @@ struct ServiceSettings {
 
 inline constexpr Time kLockstepTimeout = std::chrono::seconds(2);
 
-// Time by CLOCK_MONOTONIC.
-[[nodiscard]] Time MonotonicNow();
-
 class Service {
  public:
-  // Opens the interface and blocks SIGTERM and SIGINT. Throws std::runtime_error: no such interface, or a
+  // Opens the interface and blocks the signals that Run reacts to. Throws std::runtime_error: no such interface, or a
   // system call failed. `loop` must outlive the service.
   Service(const ServiceSettings& settings, ControlLoop& loop);
 
   // Until SIGTERM or SIGINT; then a last pair of commands, not enabled, is sent. An interface that goes down or away
-  // is waited for.
+  // is waited for. SIGUSR1 logs how quick the daemon has been.
   void Run();
 
  private:
   [[nodiscard]] Time Now() const;
-  [[nodiscard]] Time Received(const can::Frame& frame) const;
+  [[nodiscard]] bool ReactToSignals();  // false: it is time to end
   void ReadSocket();
+  void ReactToEmptyQueue(can::ReceiveStatus status, Time before);
   void ReactToTimer();
   void RunCycle(Trigger trigger);
   void Send(std::span<const can::Frame> frames);
@@ -56,14 +57,16 @@ class Service {
   ControlLoop* loop_;
   can::Socket socket_;
   FileDescriptor signals_;
-  FileDescriptor timer_;
-  FileDescriptor retry_timer_;
+  Timer timer_;
+  Timer retry_timer_;
   FileDescriptor epoll_;
   EventLog log_;
   Notifier notifier_;
   Transmitter transmitter_;
   BusState bus_ = BusState::kUp;
-  Time last_empty_{};  // when the receive queue was last seen empty
+  Time last_empty_{};     // when the receive queue was last seen empty
+  Time state_arrival_{};  // of the newest complete state, by CLOCK_MONOTONIC even in lock step
+  Latencies latencies_;
   std::int64_t cycles_ = 0;
 };
 

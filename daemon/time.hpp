@@ -18,6 +18,10 @@ using Time = std::chrono::nanoseconds;
   return std::chrono::duration<double>(time).count();
 }
 
+[[nodiscard]] constexpr double Milliseconds(Time time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
 // When a frame arrived. The kernel stamps frames by a clock that may be set at any time, so the age that this clock
 // tells is believed only within what is certain: not later than now, not before the queue was last seen empty.
 [[nodiscard]] constexpr Time ArrivalTime(Time now, Time age, Time last_empty) {

@@ -12,10 +12,14 @@ constexpr int kLastAttempts = 100;
 }  // namespace
 
 BusState Transmitter::Send(std::span<const can::Frame> frames) {
-  const std::size_t sent = SendInOrder(frames);
-  if (sent >= std::min(frames.size(), kCommands)) {
+  const std::size_t commands = std::min(frames.size(), kCommands);
+  std::size_t sent = SendInOrder(frames.first(commands));
+  commands_left_.reset();
+  if (sent == commands) {
+    commands_left_ = clock_();
     refused_in_a_row_ = 0;
     bus_ = BusState::kUp;
+    sent += SendInOrder(frames.subspan(commands));
   }
   switch (status_) {
     case can::SendStatus::kSent:

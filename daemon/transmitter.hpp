@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "can/frame.hpp"
 #include "can/socket.hpp"
 #include "daemon/command_gate.hpp"
+#include "daemon/time.hpp"
 
 namespace lpvmpcd {
 
@@ -20,8 +22,9 @@ class Transmitter {
   using SendFrame = std::function<can::SendStatus(const can::Frame&)>;
 
   // `gate` must outlive the transmitter. A frame that may not be sent counts as one that the bus refuses
-  // (kInvalidFrame).
-  Transmitter(const CommandGate& gate, SendFrame send) : gate_(&gate), send_(std::move(send)) {}
+  // (kInvalidFrame). `clock` tells when commands have left.
+  Transmitter(const CommandGate& gate, SendFrame send, std::function<Time()> clock)
+      : gate_(&gate), send_(std::move(send)), clock_(std::move(clock)) {}
 
   // In order, the pair of commands first; ends with the first frame that is not sent, so that neither an
   // acceleration goes out without its steering nor a report in place of a command. A full queue that refuses
@@ -33,6 +36,8 @@ class Transmitter {
   [[nodiscard]] bool SendLast(std::span<const can::Frame> frames, const std::function<void()>& wait);
 
   [[nodiscard]] BusState bus() const { return bus_; }
+  // When the pair of commands of the last Send had left, its reports still to follow; nothing if it did not leave.
+  [[nodiscard]] std::optional<Time> commands_left() const { return commands_left_; }
   // Of the last frame tried: the reason, if the bus is not up.
   [[nodiscard]] can::SendStatus last_status() const { return status_; }
   // Frames that a full queue refused, and those left unsent after them.
@@ -43,8 +48,10 @@ class Transmitter {
 
   const CommandGate* gate_;
   SendFrame send_;
+  std::function<Time()> clock_;
   BusState bus_ = BusState::kUp;
   can::SendStatus status_ = can::SendStatus::kSent;
+  std::optional<Time> commands_left_;
   int refused_in_a_row_ = 0;  // commands
   std::uint64_t unsent_ = 0;
 };

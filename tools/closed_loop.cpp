@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "daemon/assembly.hpp"
-#include "daemon/service.hpp"
+#include "daemon/clock.hpp"
 #include "daemon/time.hpp"
 #include "sim/virtual_vehicle.hpp"
 #include "tools/make_controller.hpp"

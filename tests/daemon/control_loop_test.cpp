@@ -665,5 +665,18 @@ TEST_F(ControlLoopTest, NothingIsAllocatedInACycle) {
   EXPECT_EQ(allocations, 0U);
 }
 
+TEST_F(ControlLoopTest, StatesThatNoCycleAnswersAreStepsToo) {
+  Engage();
+  const int place = loop_.report().route_index;
+  // More than half a round of the counter.
+  for (int i = 0; i < 12; ++i) {
+    Advance();
+    for (const can::Frame& frame : vehicle_.All()) static_cast<void>(loop_.Receive(frame, now_));
+  }
+  const Sent sent = Read(loop_.Cycle(now_, Trigger::kState));
+  EXPECT_EQ(sent.steering.state_counter, vehicle_.last_state_counter());
+  EXPECT_EQ(loop_.report().route_index, place + 12);
+}
+
 }  // namespace
 }  // namespace lpvmpcd

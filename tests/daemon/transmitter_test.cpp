@@ -22,12 +22,16 @@ class TransmitterTest : public testing::Test {
   std::vector<std::uint32_t> sent_;
   dbc::VehicleBus bus_;
   CommandGate gate_{bus_};
-  Transmitter transmitter_{gate_, [this](const can::Frame& frame) {
+  Transmitter transmitter_{gate_,
+                           [this](const can::Frame& frame) {
                              if (room_ <= 0) return otherwise_;
                              --room_;
                              sent_.push_back(frame.id);
                              return SendStatus::kSent;
-                           }};
+                           },
+                           [this] {
+                             return Time(static_cast<std::int64_t>(sent_.size()));
+                           }};  // a clock that counts the frames sent
   const std::vector<can::Frame> pair_ = Commands();
   const std::vector<can::Frame> cycle_ = CommandsAndReports();
   static constexpr std::uint32_t kSteering = 512, kAcceleration = 513, kStatus = 528, kHealth = 529;
@@ -51,6 +55,17 @@ TEST_F(TransmitterTest, AllFramesGoOutInOrder) {
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
   EXPECT_EQ(sent_, (std::vector<std::uint32_t>{kSteering, kAcceleration, kStatus, kHealth}));
   EXPECT_EQ(transmitter_.unsent(), 0U);
+}
+
+TEST_F(TransmitterTest, TellsWhenBothCommandsHadLeftAndTheReportsHadNot) {
+  transmitter_.Send(cycle_);
+  EXPECT_EQ(transmitter_.commands_left(), Time(2));
+  Refill(1);
+  transmitter_.Send(cycle_);
+  EXPECT_EQ(transmitter_.commands_left(), std::nullopt);
+  Refill(2);
+  transmitter_.Send(cycle_);
+  EXPECT_EQ(transmitter_.commands_left(), Time(2));
 }
 
 TEST_F(TransmitterTest, QueueTooShortForTheReportsIsNoBusDown) {
@@ -79,9 +94,10 @@ TEST_F(TransmitterTest, CommandsRefusedThreeTimesInARowAreABusDown) {
 
 TEST_F(TransmitterTest, NothingFollowsAFrameThatIsNotSent) {
   int calls = 0;
-  Transmitter transmitter(gate_, [&calls](const can::Frame&) {
-    return ++calls == 1 ? SendStatus::kQueueFull : SendStatus::kSent;
-  });
+  Transmitter transmitter(
+      gate_,
+      [&calls](const can::Frame&) { return ++calls == 1 ? SendStatus::kQueueFull : SendStatus::kSent; },
+      [] { return Time{}; });
   transmitter.Send(cycle_);
   EXPECT_EQ(calls, 1);  // no acceleration without its steering
 }

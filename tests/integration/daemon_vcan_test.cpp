@@ -164,6 +164,46 @@ TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
   Engage();
 }
 
+// The states that came in a pause, and the answers to them: commands that came late would be worse than none.
+TEST_F(DaemonVcan, AfterAPauseOnlyTheNewestStateIsAnswered) {
+  StartDaemon();
+  Engage();
+  // Twelve states of a counter modulo 15: from the first and the last alone their number could not be told.
+  for (const int states : {6, 12}) {
+    daemon_->Signal(SIGSTOP);
+    Forget();
+    for (int i = 0; i < states; ++i) {
+      vehicle_.pose.X += 0.5;
+      Put(vehicle_.All());
+      std::this_thread::sleep_for(50ms);
+    }
+    daemon_->Signal(SIGCONT);
+    const auto pair = NextPair();
+    ASSERT_TRUE(pair);
+    EXPECT_EQ(pair->steering.state_counter, vehicle_.last_state_counter());
+    EXPECT_EQ(pair->steering.mode, Mode::kActive);
+    while (const auto later = NextPair(100ms)) {
+      EXPECT_EQ(later->steering.state_counter, 15) << "one answer is enough";
+      if (later->steering.plan_age >= 2) break;
+    }
+    // The place on the route is right: where the vehicle is, nothing has to be caught up.
+    EXPECT_NEAR(Period().acceleration.acceleration, 0.0, 0.3);
+  }
+}
+
+TEST_F(DaemonVcan, TellsItsLatenciesWhenAskedAndAtTheEnd) {
+  StartDaemon();
+  Engage();
+  daemon_->Signal(SIGUSR1);
+  EXPECT_TRUE(LogSays("cycle latency median "));
+  EXPECT_TRUE(LogSays("control step median "));
+  EXPECT_EQ(Period().steering.mode, Mode::kActive);
+  daemon_->Signal(SIGTERM);
+  EXPECT_EQ(daemon_->Wait(5s), 0);
+  const std::string log = daemon_->Stderr();
+  EXPECT_THAT(log.substr(log.find("stopped after")), HasSubstr("cycle latency median "));
+}
+
 TEST_F(DaemonVcan, StoppedForLongAndContinuedItCommandsNothing) {
   StartDaemon();
   Engage();
