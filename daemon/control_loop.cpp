@@ -181,6 +181,7 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   report_.engagement_refused = asked && mode_.mode == Mode::kStandby;
   report_.plan_age = plan_.exists() ? plan_.Age(step_) : -1;
   report_.countdown = Countdown(inputs);
+  NameFaultyMessage(now);
   report_.limited = limited.status == control::LimitStatus::kLimited;
   report_.command = limited.command->u();
   report_.step_time = elapsed;
@@ -327,6 +328,22 @@ dbc::FaultCode ControlLoop::Fault(const ModeInputs& inputs) const {
     return dbc::FaultCode::kRouteEnd;
   if (mode_.mode == Mode::kStandby && !inputs.near_route) return dbc::FaultCode::kOffRoute;
   return dbc::FaultCode::kNone;
+}
+
+void ControlLoop::NameFaultyMessage(Time now) {
+  report_.faulty_message.reset();
+  report_.frame_fault.reset();
+  for (std::size_t i = 0; i < kRxMessages; ++i) {
+    const auto message = static_cast<RxMessage>(i);
+    const Health health = monitor_.HealthOf(message, now);
+    const bool refused = health.state == Health::State::kRefused;
+    const bool missing = health.state != Health::State::kFresh && message != RxMessage::kObstacleObject;
+    if (refused || missing) {  // without obstacles no ObstacleObject comes
+      report_.faulty_message = message;
+      if (refused) report_.frame_fault = health.reason;
+      return;
+    }
+  }
 }
 
 Time ControlLoop::Countdown(const ModeInputs& inputs) const {

@@ -76,6 +76,9 @@ class ControlLoop {
   // Both commands once more, not enabled: the last words of a daemon that ends.
   [[nodiscard]] std::span<const can::Frame> Disable();
 
+  // What the cycle before took, from the arrival of its state to both commands sent; to be published in the next.
+  void SetCycleLatency(Time latency) { report_.cycle_latency = latency; }
+
   // False while the interface is down or gone.
   void SetBusUp(bool up) { bus_up_ = up; }
 
@@ -95,6 +98,7 @@ class ControlLoop {
   [[nodiscard]] control::LimitResult Command() const;
   [[nodiscard]] control::LimitResult Measured() const;
   [[nodiscard]] dbc::FaultCode Fault(const ModeInputs& inputs) const;
+  void NameFaultyMessage(Time now);
   [[nodiscard]] Time Countdown(const ModeInputs& inputs) const;
   [[nodiscard]] bool Emit(const control::LimitedCommand& command, Trigger trigger);
   void EmitReports();

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 namespace lpvmpcd {
 namespace {
 
 constexpr std::size_t kMaxPoints = 127;
+
+// Codes of the bus: 0 is none.
+template <typename Enum>
+std::uint8_t CodeOf(const std::optional<Enum>& value) {
+  return value ? static_cast<std::uint8_t>(static_cast<unsigned>(*value) + 1U) : std::uint8_t{0};
+}
 
 template <typename Message>
 void Append(const Message& message, CommandGate& gate, std::vector<can::Frame>& frames) {
@@ -43,6 +50,8 @@ void AppendDiagnostics(const CycleReport& report, const ModeState& mode, Command
   Append(dbc::ControllerDiagnostics{.cause = mode.cause,
                                     .previous_mode = mode.previous,
                                     .countdown = ToSeconds(report.countdown),
+                                    .faulty_message = CodeOf(report.faulty_message),
+                                    .frame_fault = CodeOf(report.frame_fault),
                                     .cycle_latency = ToSeconds(report.cycle_latency),
                                     .plans_refused = static_cast<std::uint16_t>(report.plans_refused % 1024)},
          gate, frames);

@@ -179,7 +179,9 @@ void Service::RunCycle(Trigger trigger) {
   Send(loop_->Cycle(Now(), trigger));
   Arm(trigger);
   if (trigger == Trigger::kState && transmitter_.commands_left()) {
-    latencies_.cycle.Add(*transmitter_.commands_left() - state_arrival_);
+    const Time latency = *transmitter_.commands_left() - state_arrival_;
+    latencies_.cycle.Add(latency);
+    loop_->SetCycleLatency(latency);
   }
   if (loop_->report().solver != dbc::SolverStatus::kNone) {
     latencies_.step.Add(loop_->report().step_time);

@@ -25,7 +25,7 @@ class CommandGateTest : public testing::Test {
     const auto limited = limiter_.Limit({0.125, -1.0}, {0.125, -1.0}, 0);
     return gate_.Encode(*limited.command, answer, frames_);
   }
-  // A frame of each message that the gate makes, in the order of their identifiers.
+  // A frame of each message that the gate makes, in the order of a cycle.
   std::vector<can::Frame> OneOfEach() {
     EXPECT_TRUE(Encode({.mode = Mode::kActive}));
     std::vector<can::Frame> frames(frames_.begin(), frames_.end());
@@ -33,6 +33,8 @@ class CommandGateTest : public testing::Test {
     EXPECT_TRUE(gate_.Encode(dbc::ControllerStatus{}, frame));
     frames.push_back(frame);
     EXPECT_TRUE(gate_.Encode(dbc::SchedulingHealth{}, frame));
+    frames.push_back(frame);
+    EXPECT_TRUE(gate_.Encode(dbc::ControllerDiagnostics{}, frame));
     frames.push_back(frame);
     EXPECT_TRUE(gate_.Encode(dbc::HorizonHeader{}, frame));
     frames.push_back(frame);
@@ -61,7 +63,7 @@ TEST_F(CommandGateTest, CommandsSayWhatTheyAnswer) {
 }
 
 TEST_F(CommandGateTest, CommandsAreEnabledInTheModesThatCommandAlone) {
-  EXPECT_TRUE(Commands(Mode::kActive) && Commands(Mode::kSafeStop));
+  EXPECT_TRUE(Commands(Mode::kActive) && Commands(Mode::kDegraded) && Commands(Mode::kSafeStop));
   EXPECT_FALSE(Commands(Mode::kInit) || Commands(Mode::kStandby) || Commands(Mode::kFault));
   for (const Mode mode : kModes) {
     ASSERT_TRUE(Encode({.mode = mode}));
@@ -85,8 +87,8 @@ TEST_F(CommandGateTest, AgeBeyondWhatTheFrameHoldsIsItsLargest) {
 }
 
 TEST_F(CommandGateTest, EveryMessageHasItsOwnIdAndCounterAndIsProtected) {
-  const std::array<const char*, 5> names = {"SteeringCommand", "AccelerationCommand", "ControllerStatus",
-                                            "SchedulingHealth", "PlannedHorizon"};
+  const std::array<const char*, 6> names = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
+                                            "SchedulingHealth", "ControllerDiagnostics", "PlannedHorizon"};
   for (std::uint8_t i = 0; i < 31; ++i) {
     const std::vector<can::Frame> frames = OneOfEach();
     for (std::size_t message = 0; message < frames.size(); ++message) {
@@ -118,6 +120,8 @@ TEST_F(CommandGateTest, ReportsSayWhatTheyAreGiven) {
   EXPECT_EQ(Decode<dbc::ControllerStatus>(frame).iterations, 7);
   ASSERT_TRUE(gate_.Encode(dbc::SchedulingHealth{.active_rows = 12}, frame));
   EXPECT_EQ(Decode<dbc::SchedulingHealth>(frame).active_rows, 12);
+  ASSERT_TRUE(gate_.Encode(dbc::ControllerDiagnostics{.plans_refused = 5}, frame));
+  EXPECT_EQ(Decode<dbc::ControllerDiagnostics>(frame).plans_refused, 5);
 }
 
 TEST_F(CommandGateTest, FigureThatIsNoNumberIsNotSentAndCostsNoCounter) {

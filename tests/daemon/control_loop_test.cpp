@@ -419,6 +419,26 @@ TEST_F(ControlLoopTest, CorruptedStateStopsTheVehicleAndIsNamed) {
   }
   EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
   EXPECT_EQ(sent.status.fault_code, dbc::FaultCode::kStateInvalid);
+  EXPECT_EQ(sent.diagnostics.faulty_message, 2);  // VehicleMotion
+  EXPECT_EQ(sent.diagnostics.frame_fault, 4);     // WrongCrc
+}
+
+TEST_F(ControlLoopTest, MessageThatStaysAwayIsNamedWithoutAFrameFault) {
+  EXPECT_EQ(Engage().diagnostics.faulty_message, 0);
+  for (int i = 0; i < 4; ++i) {
+    Advance();
+    Give(vehicle_.Obstacles());
+    Give(vehicle_.State());
+  }
+  EXPECT_EQ(loop_.report().faulty_message, RxMessage::kDriverRequest);
+  EXPECT_EQ(loop_.report().frame_fault, std::nullopt);
+  EXPECT_EQ(Period().diagnostics.faulty_message, 0);
+}
+
+TEST_F(ControlLoopTest, LatencyOfACycleIsPublishedInTheNext) {
+  Period();
+  loop_.SetCycleLatency(1234us);
+  EXPECT_NEAR(Period().diagnostics.cycle_latency, 0.0012, 1e-9);
 }
 
 // One after another: healthy for three periods, then stale; so long in Degraded, then a stop.

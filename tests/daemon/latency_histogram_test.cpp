@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/daemon/allocations.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace lpvmpcd {
 namespace {
@@ -60,11 +60,11 @@ TEST(LatencyHistogram, TimesOutOfRangeAreCountedAtItsEnds) {
 }
 
 TEST(LatencyHistogram, TakesNothingFromTheHeap) {
-  const std::size_t before = Allocations();
+  const std::size_t before = test_support::Allocations();
   LatencyHistogram histogram;
   for (int i = 0; i < 1000; ++i) histogram.Add(i * 1ms);
   EXPECT_GT(histogram.Percentile(0.99), 0s);
-  EXPECT_EQ(Allocations(), before);
+  EXPECT_EQ(test_support::Allocations(), before);
 }
 
 }  // namespace
