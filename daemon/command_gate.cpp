@@ -9,9 +9,9 @@
 namespace lpvmpcd {
 
 CommandGate::CommandGate(const dbc::VehicleBus& bus) : bus_(&bus) {
-  constexpr std::array<const char*, kTxMessages> kNames = {"SteeringCommand",       "AccelerationCommand",
-                                                           "ControllerStatus",      "SchedulingHealth",
-                                                           "ControllerDiagnostics", "PlannedHorizon"};
+  constexpr std::array kNames = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
+                                 "SchedulingHealth", "ControllerDiagnostics", "PlannedHorizon"};
+  static_assert(kNames.size() == kTxMessages);
   for (std::size_t i = 0; i < kTxMessages; ++i) {
     ids_[i] = bus.Find(std::string(kNames[i]))->id;  // every bus has our messages
   }
@@ -20,16 +20,17 @@ CommandGate::CommandGate(const dbc::VehicleBus& bus) : bus_(&bus) {
 bool CommandGate::Encode(const control::LimitedCommand& command, const Answer& answer,
                          std::span<can::Frame, 2> out) {
   const bool enable = Commands(answer.mode);
-  const std::array<dbc::Message, 2> pair{dbc::SteeringCommand{.enable = enable,
-                                                              .mode = answer.mode,
-                                                              .state_counter = answer.state_counter,
-                                                              .plan_age = answer.plan_age,
-                                                              .delta = command.steering()},
-                                         dbc::AccelerationCommand{.enable = enable,
-                                                                  .mode = answer.mode,
-                                                                  .state_counter = answer.state_counter,
-                                                                  .plan_age = answer.plan_age,
-                                                                  .acceleration = command.acceleration()}};
+  const dbc::SteeringCommand steering{.enable = enable,
+                                      .mode = answer.mode,
+                                      .state_counter = answer.state_counter,
+                                      .plan_age = answer.plan_age,
+                                      .delta = command.steering()};
+  const dbc::AccelerationCommand acceleration{.enable = enable,
+                                              .mode = answer.mode,
+                                              .state_counter = answer.state_counter,
+                                              .plan_age = answer.plan_age,
+                                              .acceleration = command.acceleration()};
+  const auto pair = std::to_array<dbc::Message>({steering, acceleration});
   for (const Tx tx : {kSteering, kAcceleration}) {
     if (!Encode(tx, pair[tx], out[tx])) return false;
   }

@@ -10,13 +10,15 @@ namespace lpvmpcd {
 namespace {
 
 // By RxMessage: the names in the DBC.
-constexpr std::array<std::string_view, kRxMessages> kMessageNames = {
-    "VehiclePose", "VehicleMotion", "VehicleFeedback", "ObstacleObject", "ObstacleList", "DriverRequest"};
+constexpr auto kMessageNames = std::to_array<std::string_view>(
+    {"VehiclePose", "VehicleMotion", "VehicleFeedback", "ObstacleObject", "ObstacleList", "DriverRequest"});
+static_assert(kMessageNames.size() == kRxMessages);
 
 // By RxFault.
-constexpr std::array<std::string_view, kRxFaults> kFaultNames = {
-    "unknown id",       "wrong kind of frame", "wrong length",  "wrong CRC",         "invalid counter",
-    "repeated counter", "counter jump",        "invalid value", "value out of range"};
+constexpr auto kFaultNames = std::to_array<std::string_view>(
+    {"unknown id", "wrong kind of frame", "wrong length", "wrong CRC", "invalid counter", "repeated counter",
+     "counter jump", "invalid value", "value out of range"});
+static_assert(kFaultNames.size() == kRxFaults);
 
 constexpr int kFramesToResynchronise = 2;
 
@@ -55,7 +57,8 @@ std::variant<Accepted, RxFault> MessageMonitor::Check(const can::Frame& frame, T
     return refuse(RxFault::kUnknown);
   }
   Accepted accepted{.kind = static_cast<RxMessage>(row - table_.begin())};
-  if (const std::optional<RxFault> fault = Judge(*row, frame, accepted)) {
+  const std::optional<RxFault> fault = Judge(*row, frame, accepted);
+  if (fault) {
     row->last_fault = fault;
     row->refused_at = now;
     return refuse(*fault);
@@ -75,7 +78,8 @@ std::optional<RxFault> MessageMonitor::Judge(Row& row, const can::Frame& frame, 
 
   // The first frame of a message follows any counter.
   const std::optional<std::uint8_t> before = std::exchange(row.counter, check.counter);
-  const int advance = before ? (check.counter + dbc::kCounterModulus - *before) % dbc::kCounterModulus : 1;
+  const int advance =
+      before.has_value() ? (check.counter + dbc::kCounterModulus - *before) % dbc::kCounterModulus : 1;
   if (advance == 0) return RxFault::kRepeated;
   const int lost = advance - 1;
   const int allowed = row.in_sequence_wanted > 0 ? 0 : max_lost_;
@@ -98,7 +102,7 @@ bool MessageMonitor::Fresh(RxMessage message, Time now) const {
 
 Time MessageMonitor::Age(RxMessage message, Time now) const {
   const Row& row = RowOf(message);
-  return row.accepted_at ? now - *row.accepted_at : Time::max();
+  return row.accepted_at.has_value() ? now - *row.accepted_at : Time::max();
 }
 
 Time MessageMonitor::StaleAfter(RxMessage message) const {
