@@ -3,6 +3,7 @@
 #include <sys/epoll.h>
 #include <unistd.h>
 
+#include "can/interface.hpp"
 #include "can/socket.hpp"
 #include "tests/can/bus.hpp"
 
@@ -97,6 +98,13 @@ TEST_F(Interface, FdFrameOnAnInterfaceWithoutFdIsInvalid) {
   Ip({"link", "set", "vcan7", "mtu", "16", "up"});
   Socket socket("vcan7", {.fd_frames = true});
   EXPECT_EQ(socket.Send({.id = 1, .fd = true, .length = 8}), SendStatus::kInvalidFrame);
+}
+
+TEST(InterfaceKind, VirtualIsWhatItsDriverSays) {
+  EXPECT_TRUE(IsVirtual("vcan0"));
+  EXPECT_FALSE(IsVirtual("lo"));
+  EXPECT_FALSE(IsVirtual("can77"));  // there is none
+  EXPECT_FALSE(IsVirtual("a-name-that-is-too-long"));
 }
 
 }  // namespace
