@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include <toml++/toml.h>
 
@@ -85,6 +86,20 @@ double ToNumber(const Document& document, const std::string& key, const toml::no
 
 std::string Join(const std::vector<std::string>& choices) {
   return fmt::format("\"{}\"", fmt::join(choices, "\", \""));
+}
+
+void CollectValues(const toml::table& table, const std::string& prefix,
+                   std::map<std::string, std::string>& values) {
+  for (const auto& [key, value] : table) {
+    const std::string full_key = prefix + std::string(key.str());
+    if (const toml::table* child = value.as_table()) {
+      CollectValues(*child, full_key + ".", values);
+    } else {
+      std::ostringstream text;
+      value.visit([&text](const auto& node) { text << node; });
+      values.emplace(full_key, text.str());
+    }
+  }
 }
 
 }  // namespace
@@ -259,6 +274,12 @@ std::string TomlTable::TextOr(std::string_view key, const std::string& fallback)
 std::size_t TomlTable::ChoiceOr(std::string_view key, std::size_t fallback,
                                 const std::vector<std::string>& choices) const {
   return Has(key) ? Choice(key, choices) : fallback;
+}
+
+std::map<std::string, std::string> TomlTable::Values() const {
+  std::map<std::string, std::string> values;
+  if (node_->table != nullptr) CollectValues(*node_->table, node_->prefix, values);
+  return values;
 }
 
 bool TomlTable::Has(std::string_view key) const {

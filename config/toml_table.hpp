@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -59,6 +60,9 @@ class TomlTable {
   [[nodiscard]] std::string TextOr(std::string_view key, const std::string& fallback) const;
   [[nodiscard]] std::size_t ChoiceOr(std::string_view key, std::size_t fallback,
                                      const std::vector<std::string>& choices) const;
+
+  // All that is written here, by full key, each value as TOML: what a comparison of two files needs.
+  [[nodiscard]] std::map<std::string, std::string> Values() const;
 
   [[nodiscard]] bool Has(std::string_view key) const;
   // The table under `key`; an empty one where the key is missing.

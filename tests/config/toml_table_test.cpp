@@ -39,6 +39,18 @@ TEST(TomlTable, ReadsEveryTypeOfValue) {
   EXPECT_EQ(file.Path("p"), "folder/b.csv");
 }
 
+TEST(TomlTable, ValuesAreAllThatIsWrittenByFullKey) {
+  const TomlTable table =
+      TomlTable::Parse("a = 1\n[b]\nc = [1, 2.5]\nd = \"x\"\n[b.e]\nf = true\n", "test.toml");
+  const std::map<std::string, std::string> values = table.Values();
+  ASSERT_EQ(values.size(), 4U);
+  EXPECT_EQ(values.at("a"), "1");
+  EXPECT_EQ(values.at("b.c"), "[ 1, 2.5 ]");
+  EXPECT_NE(values.at("b.d"), "x");  // a text is not a number that looks like it
+  EXPECT_EQ(values.at("b.e.f"), "true");
+  EXPECT_TRUE(table.Table("none").Values().empty());
+}
+
 TEST(TomlTable, IntegerIsAcceptedAsNumber) {
   EXPECT_EQ(Parse("x = 3").Number("x"), 3.0);
 }
