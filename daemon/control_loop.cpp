@@ -78,6 +78,13 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bu
   frames_.reserve(kCommands + kReports + points);
 }
 
+void ControlLoop::Reconfigure(const LoopSettings& settings) {
+  monitor_.Reconfigure(settings.monitor);
+  const control::CommandLimits limits = settings_.limits;  // with the max_age that the controller can do
+  settings_ = settings;
+  settings_.limits = limits;
+}
+
 bool ControlLoop::Receive(const can::Frame& frame, Time now) {
   // 1. The monitor: a frame that fails changes no value.
   const auto verdict = monitor_.Check(frame, now);

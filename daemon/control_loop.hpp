@@ -79,6 +79,10 @@ class ControlLoop {
   // What the cycle before took, from the arrival of its state to both commands sent; to be published in the next.
   void SetCycleLatency(Time latency) { report_.cycle_latency = latency; }
 
+  // Takes over what of the settings can change while no commands are enabled: monitor, engagement, stop, and whether
+  // the horizon is sent.
+  void Reconfigure(const LoopSettings& settings);
+
   // False while the interface is down or gone.
   void SetBusUp(bool up) { bus_up_ = up; }
 

@@ -34,12 +34,19 @@ std::string_view Name(RxFault fault) {
 
 MessageMonitor::MessageMonitor(const dbc::VehicleBus& bus, const MonitorSettings& settings,
                                Time default_period)
-    : bus_(&bus), max_lost_(settings.max_lost) {
+    : bus_(&bus) {
   for (std::size_t i = 0; i < kRxMessages; ++i) {
     const dbc::MessageInfo* info = bus.Find(std::string(kMessageNames[i]));  // every bus has our messages
-    const double period = info->period > 0.0 ? info->period : ToSeconds(default_period);
     table_[i].info = info;
-    table_[i].stale_after = FromSeconds(settings.stale_periods * period);
+    table_[i].period = info->period > 0.0 ? info->period : ToSeconds(default_period);
+  }
+  Reconfigure(settings);
+}
+
+void MessageMonitor::Reconfigure(const MonitorSettings& settings) {
+  max_lost_ = settings.max_lost;
+  for (Row& row : table_) {
+    row.stale_after = FromSeconds(settings.stale_periods * row.period);
   }
 }
 

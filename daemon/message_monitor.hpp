@@ -90,6 +90,9 @@ class MessageMonitor {
   // `default_period` stands in where the DBC has no cycle time. `bus` must outlive the monitor.
   MessageMonitor(const dbc::VehicleBus& bus, const MonitorSettings& settings, Time default_period);
 
+  // Goes by other settings from now on.
+  void Reconfigure(const MonitorSettings& settings);
+
   [[nodiscard]] std::variant<Accepted, RxFault> Check(const can::Frame& frame, Time now);
 
   // Received and not older than `stale_periods` of its periods.
@@ -108,7 +111,8 @@ class MessageMonitor {
 
  private:
   struct Row {
-    const dbc::MessageInfo* info = nullptr;  // id, length, period, data id
+    const dbc::MessageInfo* info = nullptr;  // id, length, data id
+    double period = 0.0;                     // [s]
     Time stale_after{};
     // What has come of it.
     std::optional<std::uint8_t> counter;  // of the last frame with a good CRC
@@ -125,7 +129,7 @@ class MessageMonitor {
   [[nodiscard]] std::optional<RxFault> Judge(Row& row, const can::Frame& frame, Accepted& out) const;
 
   const dbc::VehicleBus* bus_;
-  int max_lost_;
+  int max_lost_ = 0;
   std::array<Row, kRxMessages> table_{};
   std::array<std::uint64_t, kRxFaults> counts_{};
   std::uint64_t lost_ = 0;

@@ -698,5 +698,25 @@ TEST_F(ControlLoopTest, StatesThatNoCycleAnswersAreStepsToo) {
   EXPECT_EQ(loop_.report().route_index, place + 12);
 }
 
+TEST_F(ControlLoopTest, OtherSettingsHoldForTheNextEngagementAndStop) {
+  LoopSettings settings;
+  settings.stop_deceleration = 1.0;
+  settings.engage_min_speed = 10.5;
+  settings.send_horizon = false;
+  loop_.Reconfigure(settings);
+  EXPECT_EQ(Engage().steering.mode, Mode::kStandby);  // at 10 m/s
+  settings.engage_min_speed = 9.5;
+  loop_.Reconfigure(settings);
+  vehicle_.request.engage = false;
+  Period();
+  EXPECT_EQ(Engage().steering.mode, Mode::kActive);
+  Sent sent = Period();
+  const std::size_t without_horizon = sent.frames;
+  for (int i = 0; i < 8; ++i) sent = TimerPeriod();
+  EXPECT_EQ(sent.steering.mode, Mode::kSafeStop);
+  EXPECT_NEAR(sent.acceleration.acceleration, -1.0, 0.01);
+  EXPECT_EQ(sent.frames, without_horizon);  // no new plan, no horizon
+}
+
 }  // namespace
 }  // namespace lpvmpcd

@@ -331,5 +331,13 @@ TEST_F(MessageMonitorTest, RefusedMessageThatRecoversIsFresh) {
   EXPECT_EQ(monitor_.HealthOf(RxMessage::kPose, now_).state, State::kFresh);
 }
 
+TEST_F(MessageMonitorTest, OtherSettingsHoldFromThenOnAndForgetNothing) {
+  EXPECT_TRUE(Accepts(Pose(3)));
+  monitor_.Reconfigure({.stale_periods = 5.0, .max_lost = 0});
+  EXPECT_TRUE(monitor_.Fresh(RxMessage::kPose, now_ + 250ms));
+  EXPECT_FALSE(monitor_.Fresh(RxMessage::kPose, now_ + 250ms + 1ns));
+  EXPECT_FALSE(Accepts(Pose(5)));  // one lost, and none may be
+}
+
 }  // namespace
 }  // namespace lpvmpcd
