@@ -1,53 +1,14 @@
 #include "daemon/event_log.hpp"
 
 #include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <memory>
-#include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <string>
+
+#include "daemon/log.hpp"
 
 namespace lpvmpcd {
-namespace {
 
 using namespace std::chrono_literals;
-
-// The priority of a line as systemd reads it from stderr (sd-daemon(3)).
-class JournalPriority : public spdlog::custom_flag_formatter {
- public:
-  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/,
-              spdlog::memory_buf_t& out) override {
-    const char digit = message.level >= spdlog::level::err    ? '3'
-                       : message.level >= spdlog::level::warn ? '4'
-                       : message.level >= spdlog::level::info ? '6'
-                                                              : '7';
-    out.push_back('<');
-    out.push_back(digit);
-    out.push_back('>');
-  }
-  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
-    return std::make_unique<JournalPriority>();
-  }
-};
-
-}  // namespace
-
-void OpenLog(const std::string& level) {
-  std::signal(SIGPIPE, SIG_IGN);
-  auto logger =
-      std::make_shared<spdlog::logger>("lpvmpcd", std::make_shared<spdlog::sinks::stderr_sink_st>());
-  auto formatter = std::make_unique<spdlog::pattern_formatter>();
-  if (std::getenv("JOURNAL_STREAM") != nullptr) {
-    formatter->add_flag<JournalPriority>('K').set_pattern("%K%v");
-  } else {
-    formatter->set_pattern("%H:%M:%S.%e %-7l %v");
-  }
-  logger->set_formatter(std::move(formatter));
-  logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::trace);
-  spdlog::set_default_logger(std::move(logger));
-}
 
 bool EventCount::Tell(std::uint64_t total, Time now, std::uint64_t& news) {
   if (total == told_ || (told_ != 0 && now - last_ < 1s)) {
@@ -61,10 +22,21 @@ bool EventCount::Tell(std::uint64_t total, Time now, std::uint64_t& news) {
 
 void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
   const CycleReport& report = loop.report();
+  const bool faulty = report.fault != dbc::FaultCode::kNone;
+  SetLogFields(
+      {.mode = Name(report.mode), .fault = faulty ? Name(report.fault) : "", .cause = Name(report.cause)});
   if (report.mode != report.previous_mode) {
     const bool bad = report.mode == Mode::kSafeStop || report.mode == Mode::kFault;
     spdlog::log(bad ? spdlog::level::warn : spdlog::level::info, "mode {} -> {}: {}",
                 Name(report.previous_mode), Name(report.mode), Name(report.cause));
+    told_fault_ = report.fault;  // most often it is the cause
+  } else if (!faulty) {
+    told_fault_ = report.fault;
+  } else if (report.fault != told_fault_ && now - last_fault_ >= 1s) {
+    spdlog::log(Commands(report.mode) ? spdlog::level::warn : spdlog::level::info, "in {}: {}",
+                Name(report.mode), Name(report.fault));
+    told_fault_ = report.fault;
+    last_fault_ = now;
   }
   if (report.engagement_refused) {
     spdlog::warn("engagement refused: {}", report.fault == dbc::FaultCode::kNone
@@ -116,12 +88,12 @@ void EventLog::Unsent(std::uint64_t total, Time now) {
 
 void EventLog::Times(const Latencies& latencies) {
   const auto text = [](const LatencyHistogram& histogram) {
+    if (histogram.count() == 0) return std::string("not measured");
     return fmt::format("median {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms",
                        Milliseconds(histogram.Percentile(0.5)), Milliseconds(histogram.Percentile(0.99)),
                        Milliseconds(histogram.max()));
   };
-  spdlog::info("cycle latency {} of {} states; control step {} of {} plans", text(latencies.cycle),
-               latencies.cycle.count(), text(latencies.step), latencies.step.count());
+  spdlog::info("cycle latency {}; control step {}", text(latencies.cycle), text(latencies.step));
 }
 
 std::string_view Name(dbc::FaultCode fault) {

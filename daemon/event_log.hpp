@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "daemon/control_loop.hpp"
@@ -11,11 +10,6 @@
 #include "daemon/time.hpp"
 
 namespace lpvmpcd {
-
-// Sets up the log on stderr: with time and level on a terminal; with the journal's "<6>" priorities where systemd
-// reads it. A reader that goes away ends the log, not the daemon: SIGPIPE is ignored. `level`: "debug", "info",
-// "warning" or "error".
-void OpenLog(const std::string& level);
 
 // Says how often something has happened, at most once a second.
 class EventCount {
@@ -30,7 +24,7 @@ class EventCount {
 
 class EventLog {
  public:
-  // After a cycle: changes of mode, refused engagements, refused frames, failed solves, missed deadlines.
+  // After a cycle: changes of mode, faults, refused engagements, refused frames, failed solves, missed deadlines.
   void Cycle(const ControlLoop& loop, Trigger trigger, Time now);
   // The kernel's count of frames lost because the receive buffer was full.
   void Dropped(std::uint64_t total, Time now);
@@ -43,6 +37,8 @@ class EventLog {
   std::array<EventCount, kRxFaults> rx_faults_;
   EventCount lost_, rejected_lists_, plans_refused_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;
+  dbc::FaultCode told_fault_ = dbc::FaultCode::kNone;
+  Time last_fault_{};
 };
 
 // Text of a fault code for people.

@@ -6,7 +6,7 @@
 
 #include "daemon/assembly.hpp"
 #include "daemon/config.hpp"
-#include "daemon/event_log.hpp"
+#include "daemon/log.hpp"
 #include "daemon/service.hpp"
 
 namespace {
