@@ -27,6 +27,11 @@ void ReadVector(const TomlTable& table, const char* key, Vector& vector, config:
   }
 }
 
+void RunInLockstep(Config& config) {
+  config.service.lockstep = true;
+  config.loop.deadline = Time::max();  // the vehicle waits
+}
+
 void ReadCycle(const TomlTable& table, Config& config) {
   const double period = table.NumberOr("period", 0.05, {0.005, 1.0}, "s");
   const double timeout = table.NumberOr("timeout", 1.5 * period, {0.005, 1.5}, "s");
@@ -35,9 +40,12 @@ void ReadCycle(const TomlTable& table, Config& config) {
   }
   config.service.period = FromSeconds(period);
   config.service.timeout = FromSeconds(timeout);
-  config.service.lockstep = table.BooleanOr("lockstep", config.service.lockstep);
   config.loop.period = config.service.period;
+  config.loop.deadline = FromSeconds(table.NumberOr("deadline", period, {0.001, period}, "s"));
   config.mpc.t_s = period;
+  if (table.BooleanOr("lockstep", false)) {
+    RunInLockstep(config);
+  }
 }
 
 void ReadMonitor(const TomlTable& table, MonitorSettings& monitor) {
@@ -111,6 +119,19 @@ void ReadModes(const TomlTable& engage, const TomlTable& degraded, const TomlTab
   loop.standstill_speed = stop.NumberOr("standstill_speed", loop.standstill_speed, {0.01, 5.0}, "m/s");
 }
 
+void ReadRealTime(const TomlTable& table, RealTimeSettings& settings) {
+  settings.fifo_priority = table.IntegerOr("fifo_priority", settings.fifo_priority, {0, 99});
+  settings.lock_memory = table.BooleanOr("lock_memory", settings.lock_memory);
+  if (table.Has("cpus")) {
+    for (const double cpu : table.Numbers("cpus", 0, {0.0, 1023.0})) {
+      if (cpu != std::floor(cpu)) {
+        throw table.Error("cpus", fmt::format("must be whole numbers, not {}", cpu));
+      }
+      settings.cpus.push_back(static_cast<int>(cpu));
+    }
+  }
+}
+
 }  // namespace
 
 Config LoadConfig(const std::filesystem::path& file) {
@@ -132,8 +153,20 @@ Config LoadConfig(const std::filesystem::path& file) {
   config.loop.send_horizon = root.Table("status").BooleanOr("horizon", config.loop.send_horizon);
   const std::vector<std::string> levels = {"debug", "info", "warning", "error"};
   config.log_level = levels[root.Table("log").ChoiceOr("level", 1, levels)];
+  ReadRealTime(root.Table("realtime"), config.service.real_time);
   root.RefuseUnknownKeys();
+  config.written = root.Values();
   return config;
+}
+
+void SelectInterface(Config& config, const std::string& name) {
+  config.service.interface = name;
+  config.written.erase("bus.interface");
+}
+
+void SelectLockstep(Config& config) {
+  RunInLockstep(config);
+  config.written.erase("cycle.lockstep");
 }
 
 void SelectController(Config& config, const std::string& name) {
@@ -143,6 +176,7 @@ void SelectController(Config& config, const std::string& name) {
         fmt::format("no controller \"{}\": {}", name, fmt::join(kControllerNames, ", ")));
   }
   Select(config, static_cast<ControllerKind>(known - kControllerNames.begin()));
+  config.written.erase("controller.kind");
 }
 
 const char* ControllerName(ControllerKind kind) {

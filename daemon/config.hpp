@@ -5,7 +5,10 @@
 //   [route]       file = "FILE"                 route file (config/route_file.hpp); required
 //   [cycle]       period = 0.05                 t_s of bus, reference and controller [s], 0.005..1
 //                 timeout = 1.5 period          after a state, until a cycle runs without one [s]; period..1.5
-//                 lockstep = false              time by the vehicle's counter: repeatable, for simulation only
+//                 deadline = period             age of a state at which its command would come too late [s]; 0.001..period;
+//                                               none in lock step
+//                 lockstep = false              time by the vehicle's counter: repeatable, for simulation only; refused on
+//                                               an interface that is not virtual
 //   [monitor]     stale_periods = 3.0           age, in its periods, above which a message is stale; 1..1000
 //                 max_lost = 2                  frames that may be missing between two accepted ones; 0..13
 //   [engage]      min_speed = 3.0               [m/s], 0..50
@@ -33,10 +36,17 @@
 //   [vehicle]     m, I_z, l_f, l_r, C_alpha_f, C_alpha_r        see control/vehicle_parameters.hpp
 //   [status]      horizon = true                send the planned horizon
 //   [log]         level = "info"                "debug", "info", "warning", "error"
+//   [realtime]    fifo_priority = 0             of SCHED_FIFO, 1..99; 0: usual scheduling
+//                 lock_memory = false           no page faults: memory locked, stack touched; needs RLIMIT_MEMLOCK
+//                 cpus = []                     the only CPUs to run on, each 0..1023; none: all
+//                 (what the kernel refuses is done without, and told)
+//
+// On SIGHUP a running daemon reads the file again: daemon/reload.hpp.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "control/lpv_mpc.hpp"
@@ -57,11 +67,15 @@ struct Config {
   control::LpvMpcSettings mpc;  // its trust_region is that of `controller`
   control::VehicleParameters vehicle;
   std::string log_level = "info";
+  std::map<std::string, std::string> written;  // the file's keys and values, but for those overridden
 };
 
 // Throws config::ConfigError: file, line, key, value and what is allowed.
 [[nodiscard]] Config LoadConfig(const std::filesystem::path& file);
 
+// What is given elsewhere and not by the file.
+void SelectInterface(Config& config, const std::string& name);
+void SelectLockstep(Config& config);
 // Choice of a controller by its name, as in the file. Throws std::invalid_argument.
 void SelectController(Config& config, const std::string& name);
 [[nodiscard]] const char* ControllerName(ControllerKind kind);

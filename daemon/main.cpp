@@ -7,6 +7,7 @@
 #include "daemon/assembly.hpp"
 #include "daemon/config.hpp"
 #include "daemon/log.hpp"
+#include "daemon/reload.hpp"
 #include "daemon/service.hpp"
 
 namespace {
@@ -32,16 +33,20 @@ int main(int argc, char** argv) {
   app.add_flag("--check-config", check,
                "read the configuration and all that it names, say what it is, and end");
   app.set_version_flag("--version", "lpvmpcd " LPVMPC_VERSION);
+  const auto load = [&] {
+    lpvmpcd::Config config = lpvmpcd::LoadConfig(file);
+    if (!interface.empty()) lpvmpcd::SelectInterface(config, interface);
+    if (!controller.empty()) lpvmpcd::SelectController(config, controller);
+    if (lockstep) lpvmpcd::SelectLockstep(config);
+    return config;
+  };
   std::optional<lpvmpcd::Config> config;
   std::optional<lpvmpcd::Assembly> assembly;
   try {
     app.parse(argc, argv);
     // Not CLI11's own check, which would hide an unknown option.
     if (file.empty()) throw std::runtime_error("--config is required");
-    config = lpvmpcd::LoadConfig(file);
-    if (!interface.empty()) config->service.interface = interface;
-    if (!controller.empty()) lpvmpcd::SelectController(*config, controller);
-    config->service.lockstep = config->service.lockstep || lockstep;
+    config = load();
     assembly.emplace(*config, lpvmpcd::MonotonicNow);
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : Fail(error, kUsageError);
@@ -57,7 +62,8 @@ int main(int argc, char** argv) {
   }
   try {
     lpvmpcd::OpenLog(config->log_level);
-    lpvmpcd::Service service(config->service, assembly->loop());
+    lpvmpcd::Reloader reloader(*config, load, assembly->loop());
+    lpvmpcd::Service service(config->service, assembly->loop(), [&reloader] { reloader.Reload(); });
     service.Run();
     return 0;
   } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 
 #include <systemd/sd-daemon.h>
 
+#include "daemon/clock.hpp"
 #include "daemon/event_log.hpp"
 
 namespace lpvmpcd {
@@ -21,6 +22,11 @@ Notifier::Notifier() {
 
 void Notifier::Ready() {
   sd_notify(0, "READY=1");
+}
+
+void Notifier::Reloading() {
+  const auto now = std::chrono::duration_cast<std::chrono::microseconds>(MonotonicNow());
+  sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(now.count()));
 }
 
 void Notifier::Stopping() {

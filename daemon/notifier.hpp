@@ -14,6 +14,8 @@ class Notifier {
   Notifier();
 
   void Ready();
+  // Before a reload; Ready ends it.
+  void Reloading();
   void Stopping();
   // The end of every status text from now on; empty for none.
   void SetRemark(std::string remark) { remark_ = std::move(remark); }

@@ -10,7 +10,10 @@
 #include <sys/epoll.h>
 #include <sys/signalfd.h>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include "can/interface.hpp"
 #include "daemon/system_call.hpp"
 
 namespace lpvmpcd {
@@ -24,7 +27,7 @@ constexpr Time kRetryPeriod = 100ms;
 int BlockedSignals() {
   sigset_t set;
   sigemptyset(&set);
-  for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+  for (const int signal : {SIGTERM, SIGINT, SIGUSR1, SIGHUP}) {
     sigaddset(&set, signal);
   }
   ::sigprocmask(SIG_BLOCK, &set, nullptr);
@@ -58,15 +61,20 @@ const char* WhyDown(can::SendStatus status, int error) {
 
 }  // namespace
 
-Service::Service(const ServiceSettings& settings, ControlLoop& loop)
+Service::Service(const ServiceSettings& settings, ControlLoop& loop, std::function<void()> reload)
     : settings_(settings),
       loop_(&loop),
+      reload_(std::move(reload)),
       socket_(settings.interface, Options(loop)),
       signals_(BlockedSignals()),
       epoll_(Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
       transmitter_(
           loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }, MonotonicNow),
       last_empty_(MonotonicNow()) {
+  if (settings_.lockstep && !can::IsVirtual(settings_.interface)) {
+    throw std::runtime_error("interface \"" + settings_.interface +
+                             "\" is not a virtual one (vcan, vxcan), and lock step is for simulation only");
+  }
   for (const int fd : {socket_.fd(), signals_.get(), timer_.fd(), retry_timer_.fd()}) {
     epoll_event event{};
     event.events = EPOLLIN;
@@ -76,6 +84,7 @@ Service::Service(const ServiceSettings& settings, ControlLoop& loop)
 }
 
 void Service::Run() {
+  BecomeRealTime();
   spdlog::info("listening on {}{}", settings_.interface, settings_.lockstep ? " in lock step" : "");
   notifier_.Ready();
   timer_.Set(settings_.timeout);
@@ -107,16 +116,39 @@ void Service::Run() {
   SendLastWords();
   spdlog::info("stopped after {} cycles, {} deadline misses", loop_->report().cycles,
                loop_->report().deadline_misses);
-  log_.Times(latencies_);
+  EventLog::Times(latencies_);
+}
+
+void Service::BecomeRealTime() {
+  const RealTimeOutcome outcome = ApplyRealTime(settings_.real_time);
+  std::vector<std::string> refused;
+  for (const auto& [what, why] : outcome.refused) {
+    spdlog::warn("real time: {} refused: {}", what, why);
+    refused.push_back(what);
+  }
+  if (!refused.empty()) {
+    notifier_.SetRemark(fmt::format("real time: refused {}", fmt::join(refused, ", ")));
+  }
+  if (!outcome.granted.empty()) {
+    spdlog::info("real time: {}", fmt::join(outcome.granted, ", "));
+  }
 }
 
 bool Service::ReactToSignals() {
   signalfd_siginfo signal{};
   while (::read(signals_.get(), &signal, sizeof(signal)) == sizeof(signal)) {
-    if (signal.ssi_signo != SIGUSR1) {
-      return false;
+    switch (signal.ssi_signo) {
+      case SIGUSR1:
+        EventLog::Times(latencies_);
+        break;
+      case SIGHUP:
+        notifier_.Reloading();
+        reload_();
+        notifier_.Ready();
+        break;
+      default:
+        return false;
     }
-    log_.Times(latencies_);
   }
   return true;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "daemon/file_descriptor.hpp"
 #include "daemon/latency_histogram.hpp"
 #include "daemon/notifier.hpp"
+#include "daemon/real_time.hpp"
 #include "daemon/time.hpp"
 #include "daemon/transmitter.hpp"
 
@@ -26,22 +28,24 @@ struct ServiceSettings {
   // repeatable to the bit, however fast. The timer is a last resort then (kLockstepTimeout). No cycle runs before
   // the first state; until then the status alone is sent, so that the plant knows when to begin.
   bool lockstep = false;
+  RealTimeSettings real_time;
 };
 
 inline constexpr Time kLockstepTimeout = std::chrono::seconds(2);
 
 class Service {
  public:
-  // Opens the interface and blocks the signals that Run reacts to. Throws std::runtime_error: no such interface, or a
-  // system call failed. `loop` must outlive the service.
-  Service(const ServiceSettings& settings, ControlLoop& loop);
+  // Opens the interface and blocks the signals that Run reacts to. Throws std::runtime_error: no such interface, one
+  // that is not virtual for lock step, or a system call failed. `loop` must outlive the service.
+  Service(const ServiceSettings& settings, ControlLoop& loop, std::function<void()> reload);
 
   // Until SIGTERM or SIGINT; then a last pair of commands, not enabled, is sent. An interface that goes down or away
-  // is waited for. SIGUSR1 logs how quick the daemon has been.
+  // is waited for. SIGUSR1 logs how quick the daemon has been, SIGHUP calls `reload`.
   void Run();
 
  private:
   [[nodiscard]] Time Now() const;
+  void BecomeRealTime();
   [[nodiscard]] bool ReactToSignals();  // false: it is time to end
   void ReadSocket();
   void ReactToEmptyQueue(can::ReceiveStatus status, Time before);
@@ -55,6 +59,7 @@ class Service {
 
   ServiceSettings settings_;
   ControlLoop* loop_;
+  std::function<void()> reload_;
   can::Socket socket_;
   FileDescriptor signals_;
   Timer timer_;

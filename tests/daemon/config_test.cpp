@@ -62,6 +62,34 @@ TEST_F(ConfigTest, PeriodHoldsForBusReferenceAndController) {
   EXPECT_EQ(config.service.timeout, FromSeconds(0.03));
 }
 
+TEST_F(ConfigTest, DeadlineIsThePeriodUnlessGivenAndThereIsNoneInLockStep) {
+  EXPECT_EQ(Load(kRoute + "[cycle]\nperiod = 0.02\n").loop.deadline, FromSeconds(0.02));
+  EXPECT_EQ(Load(kRoute + "[cycle]\ndeadline = 0.03\n").loop.deadline, FromSeconds(0.03));
+  EXPECT_THAT(Error(kRoute + "[cycle]\nperiod = 0.02\ndeadline = 0.03\n"), HasSubstr("deadline"));
+  EXPECT_THAT(Error(kRoute + "[cycle]\ndeadline = 0\n"), HasSubstr("0.001"));
+  Config config = Load(kRoute + "[cycle]\ndeadline = 0.03\nlockstep = true\n");
+  EXPECT_EQ(config.loop.deadline, Time::max());
+  config = Load(kRoute + "[cycle]\ndeadline = 0.03\n");
+  SelectLockstep(config);
+  EXPECT_TRUE(config.service.lockstep);
+  EXPECT_EQ(config.loop.deadline, Time::max());
+}
+
+TEST_F(ConfigTest, NothingOfRealTimeIsAskedForUnlessWritten) {
+  const RealTimeSettings usual = Load(kRoute).service.real_time;
+  EXPECT_EQ(usual.fifo_priority, 0);
+  EXPECT_FALSE(usual.lock_memory);
+  EXPECT_TRUE(usual.cpus.empty());
+  const RealTimeSettings settings =
+      Load(kRoute + "[realtime]\nfifo_priority = 50\nlock_memory = true\ncpus = [1, 3]\n").service.real_time;
+  EXPECT_EQ(settings.fifo_priority, 50);
+  EXPECT_TRUE(settings.lock_memory);
+  EXPECT_EQ(settings.cpus, (std::vector<int>{1, 3}));
+  EXPECT_THAT(Error(kRoute + "[realtime]\nfifo_priority = 100\n"), HasSubstr("[0, 99]"));
+  EXPECT_THAT(Error(kRoute + "[realtime]\ncpus = [0, 1024]\n"), HasSubstr("cpus[1]"));
+  EXPECT_THAT(Error(kRoute + "[realtime]\ncpus = [0.5]\n"), HasSubstr("0.5"));
+}
+
 TEST_F(ConfigTest, LastWeightsAreThoseOfTheOtherStepsUnlessGiven) {
   EXPECT_EQ(Load(kRoute + "[controller]\nQ = [1, 2, 3, 4, 5, 6]\n").mpc.P[5], 6.0);
   EXPECT_EQ(Load(kRoute + "[controller]\nP = [1, 2, 3, 4, 5, 6]\n").mpc.P[1], 2.0);

@@ -1,0 +1,67 @@
+#include "daemon/reload.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <iterator>
+#include <spdlog/spdlog.h>
+#include <utility>
+
+#include "daemon/log.hpp"
+
+namespace lpvmpcd {
+
+std::vector<std::string> ChangedKeys(const Config& before, const Config& after) {
+  std::vector<std::pair<std::string, std::string>> differences;
+  std::ranges::set_symmetric_difference(before.written, after.written, std::back_inserter(differences));
+  std::vector<std::string> keys;
+  for (auto& [key, value] : differences) {
+    keys.push_back(std::move(key));
+  }
+  keys.erase(std::ranges::unique(keys).begin(), keys.end());  // a key whose value differs is there twice
+  return keys;
+}
+
+std::string_view WhyNot(std::string_view key, bool commanding) {
+  constexpr std::array<std::string_view, 4> kWhileNotCommanding{"engage.", "safe_stop.", "monitor.",
+                                                                "status.horizon"};
+  if (key == "log.level") {
+    return "";
+  }
+  if (std::ranges::any_of(kWhileNotCommanding,
+                          [key](std::string_view start) { return key.starts_with(start); })) {
+    return commanding ? "cannot change while commands are enabled" : "";
+  }
+  return "needs a restart";
+}
+
+Reloader::Reloader(Config now, std::function<Config()> load, ControlLoop& loop)
+    : now_(std::move(now)), load_(std::move(load)), loop_(&loop) {}
+
+void Reloader::Reload() {
+  try {
+    Config next = load_();
+    const std::vector<std::string> changed = ChangedKeys(now_, next);
+    std::vector<std::string> refused;
+    for (const std::string& key : changed) {
+      const std::string_view why = WhyNot(key, Commands(loop_->report().mode));
+      if (!why.empty()) {
+        refused.push_back(fmt::format("{} {}", key, why));
+      }
+    }
+    if (!refused.empty()) {
+      spdlog::error("configuration not reloaded: {}", fmt::join(refused, ", "));
+      return;
+    }
+    loop_->Reconfigure(next.loop);
+    // Before the level, which may hide it.
+    spdlog::info("configuration reloaded: {}",
+                 changed.empty() ? "nothing has changed" : fmt::format("{}", fmt::join(changed, ", ")));
+    SetLogLevel(next.log_level);
+    now_ = std::move(next);
+  } catch (const std::exception& error) {
+    spdlog::error("configuration not reloaded: {}", error.what());
+  }
+}
+
+}  // namespace lpvmpcd

@@ -1,0 +1,43 @@
+// SIGHUP: a running daemon reads its configuration again and takes all that was changed in it, or nothing.
+//
+//   log.level                                              at any time
+//   engage.*, safe_stop.*, monitor.*, status.horizon       while no commands are enabled
+//   anything else                                          needs a restart
+//
+// A change is one of the text: a key that is written with the value it had by default counts, and so does one that is
+// written no more. What a named file contains (route, DBC) is not read again.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/config.hpp"
+#include "daemon/control_loop.hpp"
+
+namespace lpvmpcd {
+
+// The keys whose values differ, one of them missing included, in alphabetical order.
+[[nodiscard]] std::vector<std::string> ChangedKeys(const Config& before, const Config& after);
+
+// Why the key cannot be changed now; empty if it can.
+[[nodiscard]] std::string_view WhyNot(std::string_view key, bool commanding);
+
+class Reloader {
+ public:
+  // `now`: what the daemon runs by. `load` reads it anew, with all that the command line overrides; it throws
+  // std::exception. `loop` must outlive the reloader.
+  Reloader(Config now, std::function<Config()> load, ControlLoop& loop);
+
+  // Logs one line: what was taken, or why nothing was. Reads files, which may cost the cycle that is under way its
+  // deadline, as any pause does.
+  void Reload();
+
+ private:
+  Config now_;
+  std::function<Config()> load_;
+  ControlLoop* loop_;
+};
+
+}  // namespace lpvmpcd

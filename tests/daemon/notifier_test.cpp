@@ -1,0 +1,110 @@
+// The notifier against a socket in systemd's place.
+#include "daemon/notifier.hpp"
+
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "tests/support/temp_dir.hpp"
+
+namespace lpvmpcd {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+class NotifierTest : public testing::Test {
+ protected:
+  NotifierTest() {
+    sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+    const std::string path = folder_ / "notify";
+    path.copy(address.sun_path, sizeof(address.sun_path) - 1);
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+    ::setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  }
+  ~NotifierTest() override {
+    ::close(socket_);
+    for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
+  }
+  // All that has been told since the last call.
+  std::vector<std::string> Told() const {
+    std::vector<std::string> told;
+    char text[1024];
+    for (ssize_t size = 0; (size = ::recv(socket_, text, sizeof(text), MSG_DONTWAIT)) >= 0;) {
+      told.emplace_back(text, static_cast<std::size_t>(size));
+    }
+    return told;
+  }
+
+  test_support::TempDir folder_;
+  int socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  Latencies latencies_;
+};
+
+TEST_F(NotifierTest, FeedsTheWatchdogAtLeastTwiceInItsPeriodAndOnlyByCycles) {
+  ::setenv("WATCHDOG_USEC", "1000000", 1);
+  ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
+  Notifier notifier;
+  notifier.Ready();
+  EXPECT_EQ(Told(), std::vector<std::string>{"READY=1"});
+  // Cycles as slow as the slowest timeout that leaves room for two in a period.
+  for (const Time cycle : {Time(10ms), Time(75ms), Time(250ms)}) {
+    Time last{};
+    for (Time now = 0s; now <= 10s; now += cycle) {
+      notifier.Cycle({}, latencies_, now);
+      for (const std::string& text : Told()) {
+        if (text != "WATCHDOG=1") continue;
+        EXPECT_LE(now - last, 500ms);
+        last = now;
+      }
+    }
+    EXPECT_GE(last, 9500ms);
+    notifier = Notifier();
+  }
+}
+
+TEST_F(NotifierTest, WithoutAWatchdogThereIsNothingToFeed) {
+  Notifier notifier;
+  notifier.Cycle({}, latencies_, 1s);
+  const auto told = Told();
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_THAT(told.front(), StartsWith("STATUS=Init; no fault; 0 cycles"));
+}
+
+TEST_F(NotifierTest, StatusTellsLatenciesAndWhatTheKernelRefused) {
+  Notifier notifier;
+  latencies_.cycle.Add(2ms);
+  latencies_.step.Add(1ms);
+  notifier.Cycle({}, latencies_, 1s);
+  EXPECT_THAT(Told().front(), testing::AllOf(HasSubstr("latency p99 2.00 ms, max 2.00 ms"),
+                                             HasSubstr("step p99 1.00 ms"), Not(HasSubstr("real time"))));
+  notifier.SetRemark("real time: refused cpu 7");
+  notifier.Cycle({}, latencies_, 2s);
+  EXPECT_THAT(Told().front(), testing::EndsWith("; real time: refused cpu 7"));
+}
+
+TEST_F(NotifierTest, StatusComesAtOnceWithAChangeAndOtherwiseOnceASecond) {
+  Notifier notifier;
+  notifier.Cycle({}, latencies_, 1s);
+  EXPECT_EQ(Told().size(), 1U);
+  notifier.Cycle({}, latencies_, 1500ms);
+  EXPECT_EQ(Told().size(), 0U);
+  notifier.Cycle({.mode = Mode::kStandby}, latencies_, 1600ms);
+  EXPECT_EQ(Told().size(), 1U);
+  notifier.Cycle({.mode = Mode::kStandby, .fault = dbc::FaultCode::kOffRoute}, latencies_, 1700ms);
+  EXPECT_THAT(Told().front(), StartsWith("STATUS=Standby; not on the route or too slow"));
+}
+
+TEST_F(NotifierTest, ReloadTellsItsTime) {
+  Notifier notifier;
+  notifier.Reloading();
+  EXPECT_THAT(Told().front(), testing::MatchesRegex("RELOADING=1\nMONOTONIC_USEC=[0-9]+"));
+}
+
+}  // namespace
+}  // namespace lpvmpcd
