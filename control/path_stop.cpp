@@ -57,9 +57,9 @@ void PathStop::Follow(std::span<const State> plan) {
   offset_ = Left(z[kPsi]).dot(end - Position(z));
 }
 
-Input PathStop::Command(const Input& applied) const {
+double PathStop::Steering(double applied) const {
   if (speed_ < settings_.min_steering_speed) {
-    return {applied[kDelta], -settings_.deceleration};
+    return applied;
   }
   const double look_ahead = std::max(settings_.look_ahead_time * speed_, settings_.min_look_ahead);
   Eigen::Vector2d to_target = Eigen::Vector2d::Zero();
@@ -69,9 +69,7 @@ Input PathStop::Command(const Input& applied) const {
   }
   const double curvature = 2.0 * Left(course_).dot(to_target) / to_target.squaredNorm();
   const double step = settings_.max_steering_rate * settings_.t_s;
-  const double delta =
-      std::clamp(curvature * SteeringPerCurvature(), applied[kDelta] - step, applied[kDelta] + step);
-  return {delta, -settings_.deceleration};
+  return std::clamp(curvature * SteeringPerCurvature(), applied - step, applied + step);
 }
 
 State PathStop::At(int k) const {

@@ -1,5 +1,5 @@
-// Brings the vehicle to a stop along its path when there are no more plans: brakes evenly, and steers by pure pursuit
-// (Coulter, CMU-RI-TR-92-01) with the single-track model's steady state in the place of its kinematics:
+// Steers a vehicle that brakes to a stop along its path when there are no more plans: by pure pursuit (Coulter,
+// CMU-RI-TR-92-01) with the single-track model's steady state in the place of its kinematics:
 //
 //   κ = 2 y_t / d²            circle through the vehicle, along its course, and a point of the path at distance d
 //   δ = κ (L + K υ²)          L = l_f + l_r,  K = m/(2L) (l_r/C_αf − l_f/C_αr)       understeer gradient
@@ -21,7 +21,6 @@ namespace control {
 struct PathStopSettings {
   VehicleParameters vehicle;
   double t_s = 0.05;                // [s]
-  double deceleration = 3.0;        // [m/s²]
   double max_steering_rate = 0.5;   // by which δ comes from the last plan's to the path's [rad/s]
   double look_ahead_time = 0.6;     // d = max(look_ahead_time υ, min_look_ahead) [s]
   double min_look_ahead = 5.0;      // [m]
@@ -39,8 +38,8 @@ class PathStop {
   void Advance(const State* measured, const Input& applied);
   // The path ends like this plan, N + 1 states that begin where the vehicle is.
   void Follow(std::span<const State> plan);
-  // What to do in this cycle. `applied`: command of the cycle before.
-  [[nodiscard]] Input Command(const Input& applied) const;
+  // δ of this cycle [rad]; `applied` is that of the cycle before.
+  [[nodiscard]] double Steering(double applied) const;
 
   [[nodiscard]] double speed() const { return speed_; }    // as measured or reckoned [m/s], ≥ 0
   [[nodiscard]] double offset() const { return offset_; }  // of the path, left of the reference [m]

@@ -66,10 +66,7 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bu
       limiter_(settings.limits),
       gate_(bus),
       plan_(controller.horizon()),
-      stop_({.vehicle = settings.vehicle,
-             .t_s = ToSeconds(settings.period),
-             .deceleration = settings.stop_deceleration},
-            reference) {
+      stop_({.vehicle = settings.vehicle, .t_s = ToSeconds(settings.period)}, reference) {
   const int horizon = controller.horizon();
   settings_.limits.max_age = std::min(settings.limits.max_age, horizon - 1);
   limiter_ = control::CommandLimiter(settings_.limits);
@@ -305,11 +302,9 @@ control::LimitResult ControlLoop::Command() const {
   }
   if (mode_.mode == Mode::kSafeStop) {
     // Along the rest of the last plan, then along its path; never snapped to zero.
-    control::Input u = stop_.Command(applied_);
-    if (plan_.Covers(step_)) {
-      u[control::kDelta] = plan_.At(step_)[control::kDelta];
-    }
-    return limiter_.Limit(u, applied_, 0);
+    const double delta =
+        plan_.Covers(step_) ? plan_.At(step_)[control::kDelta] : stop_.Steering(applied_[control::kDelta]);
+    return limiter_.Limit({delta, -settings_.stop_deceleration}, applied_, 0);
   }
   return Measured();
 }

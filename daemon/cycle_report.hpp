@@ -20,13 +20,14 @@ struct CycleReport {
   dbc::SolverStatus solver = dbc::SolverStatus::kNone;
   int iterations = 0;  // of the solver
   bool plan_accepted = false;
-  bool engagement_refused = false;          // the driver asked in this cycle and did not get it
-  std::optional<RxMessage> faulty_message;  // the first that does not come, or not as it should
-  std::optional<RxFault> frame_fault;       // why its frames are refused, if they come
-  Time countdown = Time::max();             // until the vehicle is stopped, as things are; max: not driving
-  int plan_age = -1;                        // cycles, -1 without a plan
-  int route_index = -1;                     // point of the reference, -1 off the route
-  bool limited = false;                     // the limiter changed the command
+  bool engagement_refused = false;  // the driver asked in this cycle and did not get it
+  std::optional<RxMessage> faulty_message =
+      std::nullopt;                                   // the first that does not come, or not as it should
+  std::optional<RxFault> frame_fault = std::nullopt;  // why its frames are refused, if they come
+  Time countdown = Time::max();  // until the vehicle is stopped, as things are; max: not driving
+  int plan_age = -1;             // cycles, -1 without a plan
+  int route_index = -1;          // point of the reference, -1 off the route
+  bool limited = false;          // the limiter changed the command
   control::Input command = control::Input::Zero();
   Time step_time{};      // by the stopwatch
   Time cycle_latency{};  // of the last state that was answered: its arrival to both commands sent

@@ -23,8 +23,8 @@ std::vector<std::string> ChangedKeys(const Config& before, const Config& after) 
 }
 
 std::string_view WhyNot(std::string_view key, bool commanding) {
-  constexpr std::array<std::string_view, 4> kWhileNotCommanding{"engage.", "safe_stop.", "monitor.",
-                                                                "status.horizon"};
+  constexpr std::array<std::string_view, 5> kWhileNotCommanding{"engage.", "degraded.", "safe_stop.",
+                                                                "monitor.", "status.horizon"};
   if (key == "log.level") {
     return "";
   }

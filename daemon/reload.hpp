@@ -1,8 +1,8 @@
 // SIGHUP: a running daemon reads its configuration again and takes all that was changed in it, or nothing.
 //
-//   log.level                                              at any time
-//   engage.*, safe_stop.*, monitor.*, status.horizon       while no commands are enabled
-//   anything else                                          needs a restart
+//   log.level                                                      at any time
+//   engage.*, degraded.*, safe_stop.*, monitor.*, status.horizon   while no commands are enabled
+//   anything else                                                  needs a restart
 //
 // A change is one of the text: a key that is written with the value it had by default counts, and so does one that is
 // written no more. What a named file contains (route, DBC) is not read again.

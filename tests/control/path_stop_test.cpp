@@ -56,7 +56,7 @@ class PathStopInACurve : public ::testing::Test {
   Figures Stop(PathStop& stop, bool measured) {
     Figures figures;
     while (z_[kUpsilon] > kSlowest) {
-      const Input u = stop.Command(u_);
+      const Input u(stop.Steering(u_[kDelta]), -3.0);
       figures.largest_step = std::max(figures.largest_step, std::abs(u[kDelta] - u_[kDelta]));
       figures.smallest_delta = std::min(figures.smallest_delta, u[kDelta]);
       u_ = u;
@@ -117,7 +117,7 @@ TEST(PathStop, PastTheEndOfTheReferenceItGoesStraightOn) {
   for (int i = 0; i < 20; ++i) {
     z[kX] += 0.5;
     stop.Advance(&z, Input::Zero());
-    EXPECT_NEAR(stop.Command(Input::Zero())[kDelta], 0.0, 1e-12);
+    EXPECT_NEAR(stop.Steering(0.0), 0.0, 1e-12);
   }
 }
 
@@ -129,12 +129,11 @@ TEST(PathStop, ReckonedSpeedEndsAtStandstillAndTheWheelsAreHeld) {
   stop.Start(z, 0);
   Input u(0.06, 0.0);
   for (int i = 0; i < 40; ++i) {
-    u = stop.Command(u);
+    u = {stop.Steering(u[kDelta]), -3.0};
     stop.Advance(nullptr, u);
   }
   EXPECT_EQ(stop.speed(), 0.0);
-  EXPECT_EQ(stop.Command(u)[kDelta], u[kDelta]);
-  EXPECT_EQ(stop.Command(u)[kAcceleration], -3.0);
+  EXPECT_EQ(stop.Steering(u[kDelta]), u[kDelta]);
 }
 
 }  // namespace
