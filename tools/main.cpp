@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,12 @@ constexpr int kBadInput = 2;
 int Fail(const std::exception& error) {
   std::cerr << "lpvmpc: " << error.what() << '\n';
   return kBadInput;
+}
+
+// Ours beside the program: in the folder of a build as where it is installed.
+std::string Scenarios(const char* part) {
+  const auto program = std::filesystem::read_symlink("/proc/self/exe");
+  return program.parent_path().parent_path() / "share/lpvmpcd/scenarios" / part;
 }
 
 // The status of a command whose output has reached stdout.
@@ -75,7 +82,7 @@ int main(int argc, char** argv) {
   decode_command->add_option("LOG", log, "candump log; - for standard input")->capture_default_str();
 
   tools::BenchStepOptions bench;
-  bench.scenario = LPVMPC_DATA_DIR "/scenarios/demo/scenario.toml";
+  bench.scenario = Scenarios("demo/scenario.toml");
   CLI::App* bench_command =
       app.add_subcommand("bench", "time parts of the controller")->require_subcommand(0, 1);
   CLI::App* step_command = bench_command->add_subcommand("step", "the whole control step along a drive");
@@ -88,7 +95,7 @@ int main(int argc, char** argv) {
   step_command->add_flag("--json", bench.json, "figures as JSON");
 
   tools::PaperOptions paper;
-  paper.scenarios = LPVMPC_DATA_DIR "/scenarios/paper";
+  paper.scenarios = Scenarios("paper");
   paper.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App* paper_command =
       app.add_subcommand("paper", "the paper's comparisons, and whether its claims hold");

@@ -1,0 +1,54 @@
+# Bash completion of lpvmpcd, lpvmpc-sim and lpvmpc. Options and commands are those that --help tells.
+_lpvmpcd() {
+  local cur prev words cword
+  _init_completion || return
+
+  case $prev in
+    --interface)
+      _lpvmpcd_offer "$(for type in can vcan vxcan; do ip -br link show type $type; done 2>/dev/null | sed 's/[ @].*//')"
+      return
+      ;;
+    --controller)
+      local kinds="lpv lpv-standard"
+      [[ ${words[0]##*/} != lpvmpc ]] || kinds+=" nmpc" # which no daemon drives by
+      _lpvmpcd_offer "$kinds"
+      return
+      ;;
+    --config | --scenario) _filedir toml && return ;;
+    --log | -o | --output) _filedir && return ;;
+    --out | --scenarios) _filedir -d && return ;;
+    --horizon | --repeat | --jobs | --timeout) return ;; # a number
+  esac
+
+  # The command so far: each word that names a command of the one before it.
+  local i path=() commands
+  commands=$(_lpvmpcd_commands)
+  for ((i = 1; i < cword; i++)); do
+    [[ " $commands " == *" ${words[i]} "* ]] || continue
+    path+=("${words[i]}")
+    commands=$(_lpvmpcd_commands)
+  done
+  if [[ $cur == -* ]]; then
+    _lpvmpcd_offer "$(_parse_help "${words[0]}" "${path[*]} --help")"
+  elif [[ -n $commands ]]; then
+    _lpvmpcd_offer "$commands"
+  elif [[ ${path[*]} == decode ]]; then
+    _filedir log
+  elif [[ ${path[*]} == report ]]; then
+    _filedir -d
+  fi
+}
+
+# Those of the words "$1" that begin like the one at the cursor.
+_lpvmpcd_offer() {
+  # shellcheck disable=SC2207 # words without blanks
+  COMPREPLY=($(compgen -W "$1" -- "$cur"))
+}
+
+# The commands that follow those of `path`, on one line.
+_lpvmpcd_commands() {
+  "${words[0]}" "${path[@]}" --help 2>/dev/null |
+    sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p' | tr '\n' ' ' | sed 's/ $//'
+}
+
+complete -F _lpvmpcd lpvmpcd lpvmpc-sim lpvmpc
