@@ -1,0 +1,117 @@
+// lpvmpcd@.service with the vehicle of lpvmpc-sim@.service: the demonstration, and what happens when a drive is broken off.
+#include <algorithm>
+#include <csignal>
+#include <gmock/gmock.h>
+#include <iostream>
+#include <thread>
+
+#include "tests/service/machine.hpp"
+
+namespace service_test {
+namespace {
+
+using namespace std::chrono_literals;
+using dbc::Mode;
+using std::chrono::steady_clock;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// VmHWM of the daemon, the most that it ever had in memory [MB].
+double PeakMemory() {
+  const std::string status = Do({"cat", "/proc/" + Property(kDaemon, "MainPID") + "/status"});
+  const std::string mark = "VmHWM:";
+  return std::stod(status.substr(status.find(mark) + mark.size())) / 1024;
+}
+
+class Drive : public Service {
+ protected:
+  // Sends `signal` to the daemon, which systemd then starts again. True if no command of a time after the signal is
+  // enabled until it stands by, and for a while after it.
+  static void BreakOff(BusWatch& bus, int signal) {
+    const long restarts = Number(kDaemon, "NRestarts");
+    const long pid = Number(kDaemon, "MainPID");
+    ASSERT_GT(pid, 1);
+    ASSERT_EQ(::kill(static_cast<pid_t>(pid), signal), 0);
+    const can::Time end = Now();
+    ASSERT_TRUE(Eventually([&] { return Number(kDaemon, "NRestarts") == restarts + 1; }));
+    ASSERT_TRUE(Becomes(kDaemon, "active"));
+    ASSERT_TRUE(bus.Reaches(Mode::kStandby));
+    std::this_thread::sleep_for(1s);
+
+    const auto& commands = bus.Commands();
+    const auto after =
+        std::ranges::find_if(commands, [end](const auto& command) { return command.time > end; });
+    EXPECT_TRUE(std::any_of(commands.begin(), after, [](const auto& command) { return command.enable; }));
+    EXPECT_GT(commands.end() - after, 20);
+    EXPECT_TRUE(std::none_of(after, commands.end(), [](const auto& command) { return command.enable; }));
+  }
+};
+
+TEST_F(Drive, DemonstrationMeetsItsExpectationsWithLittleMemory) {
+  StartDaemon();
+  BusWatch bus;
+  Engage(bus);
+  EXPECT_TRUE(Eventually([] { return Property(kDaemon, "StatusText").starts_with("Active; no fault; "); }));
+  const auto begin = steady_clock::now();
+  const long used = Number(kDaemon, "CPUUsageNSec");
+  std::this_thread::sleep_for(50s);  // of the drive's 60
+  const double percent = 100.0 * static_cast<double>(Number(kDaemon, "CPUUsageNSec") - used) /
+                         std::chrono::duration<double, std::nano>(steady_clock::now() - begin).count();
+  ASSERT_TRUE(Becomes(kVehicle, "inactive"));  // it has ended by itself
+  EXPECT_EQ(Property(kVehicle, "Result"), "success") << Journal(kVehicle);
+  EXPECT_EQ(Property(kDaemon, "NRestarts"), "0");
+
+  // The kernel counts by its tick of 10 ms and takes 100 times what a processor's own takes for a system call, so the
+  // share of the processor is a figure to look at and no limit.
+  const double memory = PeakMemory();
+  std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of this processor, " << memory
+            << " MB\n";
+  EXPECT_GT(percent, 0.0);
+  EXPECT_LT(memory, 20.0);
+}
+
+TEST_F(Drive, KilledAtAnyMomentItComesBackAndCommandsNothingUntilAskedAnew) {
+  StartDaemon();
+  BusWatch bus;
+  for (const auto moment : {0ms, 700ms, 5000ms}) {
+    ASSERT_NO_FATAL_FAILURE(Engage(bus));
+    std::this_thread::sleep_for(moment);
+    ASSERT_NO_FATAL_FAILURE(BreakOff(bus, SIGKILL));
+  }
+  Engage(bus);
+}
+
+TEST_F(Drive, HangingItIsKilledByTheWatchdogAndCommandsNothingUntilAskedAnew) {
+  StartDaemon();
+  BusWatch bus;
+  ASSERT_NO_FATAL_FAILURE(Engage(bus));
+  BreakOff(bus, SIGSTOP);
+  EXPECT_TRUE(Says(kDaemon, "Watchdog timeout"));
+  Engage(bus);
+}
+
+TEST_F(Drive, CleanStopSendsDisabledCommandsLast) {
+  StartDaemon();
+  BusWatch bus;
+  ASSERT_NO_FATAL_FAILURE(Engage(bus));
+  Do({"systemctl", "stop", kDaemon});
+  EXPECT_EQ(Property(kDaemon, "Result"), "success");
+  const auto& commands = bus.Commands();
+  ASSERT_GE(commands.size(), 4U);
+  for (auto last = commands.end() - 2; last != commands.end(); ++last) EXPECT_FALSE(last->enable);
+  EXPECT_TRUE((commands.end() - 3)->enable);
+}
+
+TEST_F(Drive, LinkDownEndsIt) {
+  StartDaemon();
+  BusWatch bus;
+  ASSERT_NO_FATAL_FAILURE(Engage(bus));
+  Do({"ip", "link", "set", kInterface, "down"});
+  EXPECT_TRUE(Says(kDaemon, "mode Active -> SafeStop: bus down"));
+  Do({"ip", "link", "set", kInterface, "up"});
+  EXPECT_TRUE(Says(kDaemon, "vcan0 is up"));
+  EXPECT_EQ(Property(kDaemon, "NRestarts"), "0");
+}
+
+}  // namespace
+}  // namespace service_test
