@@ -53,6 +53,14 @@ TEST_F(Unit, FailsAtOnceWithTheReasonWhereTheConfigurationIsWrong) {
   EXPECT_EQ(Property(kDaemon, "ExecMainStatus"), "2");
 }
 
+TEST_F(Unit, ReloadsItsConfiguration) {
+  StartDaemon();
+  const std::string pid = Property(kDaemon, "MainPID");
+  Do({"systemctl", "reload", kDaemon});
+  EXPECT_TRUE(Says(kDaemon, "configuration reloaded"));
+  EXPECT_EQ(Property(kDaemon, "MainPID"), pid);
+}
+
 TEST_F(Unit, IsExposedNoMoreThanItHasToBe) {
   StartDaemon();
   const std::string lines = Do({"systemd-analyze", "security", "--no-pager", kDaemon});
