@@ -26,7 +26,7 @@ class LatencyHistogram {
   [[nodiscard]] Time Percentile(double share) const;
 
  private:
-  static constexpr std::size_t kBuckets = 33 * 32;
+  static constexpr std::size_t kBuckets = 33UL * 32;
 
   std::array<std::uint64_t, kBuckets> counts_{};
   std::uint64_t count_ = 0;

@@ -13,7 +13,7 @@
 namespace lpvmpcd {
 namespace {
 
-constexpr std::size_t kStack = 256 * 1024;
+constexpr std::size_t kStack = 256UL * 1024;
 constexpr std::size_t kPage = 4096;
 
 std::string ErrnoText() {

@@ -15,6 +15,7 @@ std::vector<std::string> ChangedKeys(const Config& before, const Config& after) 
   std::vector<std::pair<std::string, std::string>> differences;
   std::ranges::set_symmetric_difference(before.written, after.written, std::back_inserter(differences));
   std::vector<std::string> keys;
+  keys.reserve(differences.size());
   for (auto& [key, value] : differences) {
     keys.push_back(std::move(key));
   }

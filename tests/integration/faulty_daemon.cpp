@@ -17,7 +17,7 @@
 #include "config/route_file.hpp"
 #include "control/lpv_mpc.hpp"
 #include "daemon/assembly.hpp"
-#include "daemon/event_log.hpp"
+#include "daemon/log.hpp"
 #include "daemon/service.hpp"
 
 namespace {
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     lpvmpcd::Assembly assembly(config, config::LoadRoute(config.route), lpvmpcd::MonotonicNow,
                                std::make_unique<FaultyController>(config, FaultFromEnvironment()));
     lpvmpcd::OpenLog(config.log_level);
-    lpvmpcd::Service service(config.service, assembly.loop());
+    lpvmpcd::Service service(config.service, assembly.loop(), [] {});
     service.Run();
     return 0;
   } catch (const std::exception& error) {
