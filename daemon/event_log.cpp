@@ -34,14 +34,15 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
     told_fault_ = report.fault;
   } else if (report.fault != told_fault_ && now - last_fault_ >= 1s) {
     spdlog::log(Commands(report.mode) ? spdlog::level::warn : spdlog::level::info, "in {}: {}",
-                Name(report.mode), Name(report.fault));
+                Name(report.mode), FaultText(report));
     told_fault_ = report.fault;
     last_fault_ = now;
   }
   if (report.engagement_refused) {
-    spdlog::warn("engagement refused: {}", report.fault == dbc::FaultCode::kNone
-                                               ? "driver overrides, or inputs not healthy for long enough"
-                                               : Name(report.fault));
+    spdlog::warn("engagement refused: {}",
+                 report.fault == dbc::FaultCode::kNone
+                     ? std::string("driver overrides, or inputs not healthy for long enough")
+                     : FaultText(report));
   }
 
   std::uint64_t n = 0;
@@ -94,6 +95,16 @@ void EventLog::Times(const Latencies& latencies) {
                        Milliseconds(histogram.max()));
   };
   spdlog::info("cycle latency {}; control step {}", text(latencies.cycle), text(latencies.step));
+}
+
+std::string FaultText(const CycleReport& report) {
+  std::string text(Name(report.fault));
+  if (report.fault != dbc::FaultCode::kNone && report.faulty_message) {
+    text +=
+        fmt::format(" ({} {})", Name(*report.faulty_message),
+                    report.frame_fault ? fmt::format("refused: {}", Name(*report.frame_fault)) : "missing");
+  }
+  return text;
 }
 
 std::string_view Name(dbc::FaultCode fault) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "daemon/control_loop.hpp"
@@ -43,5 +44,7 @@ class EventLog {
 
 // Text of a fault code for people.
 [[nodiscard]] std::string_view Name(dbc::FaultCode fault);
+// The same of the present fault, with the message that ails, if one does.
+[[nodiscard]] std::string FaultText(const CycleReport& report);
 
 }  // namespace lpvmpcd

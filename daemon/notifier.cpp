@@ -53,7 +53,7 @@ void Notifier::Cycle(const CycleReport& report, const Latencies& latencies, Time
   };
   sd_notify(0,
             fmt::format("STATUS={}; {}; {} cycles, {} deadline misses; latency {}; step {}{}{}", Name(mode_),
-                        Name(fault_), report.cycles, report.deadline_misses, figures(latencies.cycle),
+                        FaultText(report), report.cycles, report.deadline_misses, figures(latencies.cycle),
                         figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
                 .c_str());
 }

@@ -152,7 +152,8 @@ class DaemonWithJournal : public DaemonService {
   // The next entry with this message, by its beginning, and how it names its fields. Empty if there is none in time.
   std::string Entry(const std::string& message) const {
     std::string entry(4096, '\0');
-    while (can::WaitReadable(journal_, 2s)) {
+    const auto end = steady_clock::now() + 10s;  // other lines may come for ever
+    while (steady_clock::now() < end && can::WaitReadable(journal_, 2s)) {
       const ssize_t size = ::recv(journal_, entry.data(), entry.size(), 0);
       std::string text = entry.substr(0, static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
       if (Field(text, "MESSAGE").starts_with(message)) return text;
@@ -182,7 +183,7 @@ TEST_F(DaemonWithJournal, ChangesOfModeAndFaultsHaveFieldsAndNoLineIsThereTwice)
   EXPECT_EQ(Field(entry, "PRIORITY"), "6");
   EXPECT_EQ(Field(entry, "SYSLOG_IDENTIFIER"), "lpvmpcd");
   UntilSafeStop([] { return std::vector<can::Frame>{}; });
-  entry = Entry("mode Active -> SafeStop");
+  entry = Entry("mode Degraded -> SafeStop");
   EXPECT_EQ(Field(entry, "LPVMPCD_MODE"), "SafeStop");
   EXPECT_EQ(Field(entry, "LPVMPCD_FAULT"), "vehicle state stale");
   EXPECT_EQ(Field(entry, "PRIORITY"), "4");
@@ -194,7 +195,7 @@ TEST_F(DaemonWithJournal, JournalThatStallsDoesNotStallTheDaemon) {
   for (int i = 0; i < 700; ++i) {  // more than its queue holds, 512 where systemd has raised it
     daemon_->Signal(SIGUSR1);
     if (i % 10 == 0) {
-      ASSERT_EQ(Period().steering.mode, Mode::kActive) << i;
+      ASSERT_TRUE(Drives(Period().steering.mode)) << i;
     }
   }
   EXPECT_NE(Entry("cycle latency"), "");  // there is room again
