@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/plan_verdict.hpp"
 #include "daemon/report_frames.hpp"
 #include "daemon/route_place.hpp"
 
@@ -14,42 +15,6 @@ constexpr int kNoPlanAge = 63;
 constexpr std::size_t kCommands = 2;
 constexpr std::size_t kReports = 4;    // status, health, diagnostics, header of the horizon
 constexpr int kPeriodsOfSilence = 40;  // without a command, after which others have the vehicle
-
-// Of a plan that was solved: every value of it is a number.
-bool Acceptable(const control::Plan& plan, int horizon) {
-  const auto n = static_cast<std::size_t>(horizon);
-  return plan.u.size() == n && plan.z.size() == n + 1 &&
-         std::ranges::all_of(plan.u, [](const control::Input& u) { return u.allFinite(); }) &&
-         std::ranges::all_of(plan.z, [](const control::State& z) { return z.allFinite(); });
-}
-
-dbc::FaultCode SolverFault(control::SolverStatus status) {
-  switch (status) {
-    case control::SolverStatus::kSolved:
-      return dbc::FaultCode::kNone;
-    case control::SolverStatus::kInfeasible:
-      return dbc::FaultCode::kSolverInfeasible;
-    case control::SolverStatus::kIterationLimit:
-      return dbc::FaultCode::kSolverIterationLimit;
-    case control::SolverStatus::kNumericalFailure:
-      break;
-  }
-  return dbc::FaultCode::kSolverNumericalFailure;
-}
-
-dbc::SolverStatus ToBus(control::SolverStatus status) {
-  switch (status) {
-    case control::SolverStatus::kSolved:
-      return dbc::SolverStatus::kSolved;
-    case control::SolverStatus::kInfeasible:
-      return dbc::SolverStatus::kInfeasible;
-    case control::SolverStatus::kIterationLimit:
-      return dbc::SolverStatus::kIterationLimit;
-    case control::SolverStatus::kNumericalFailure:
-      break;
-  }
-  return dbc::SolverStatus::kNumericalFailure;
-}
 
 }  // namespace
 
@@ -185,7 +150,7 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   report_.engagement_refused = asked && mode_.mode == Mode::kStandby;
   report_.plan_age = plan_.exists() ? plan_.Age(step_) : -1;
   report_.countdown = Countdown(inputs);
-  NameFaultyMessage(now);
+  report_.faulty_message = FindFaultyMessage(monitor_, now);
   report_.limited = limited.status == control::LimitStatus::kLimited;
   report_.command = limited.command->u();
   report_.step_time = elapsed;
@@ -279,13 +244,8 @@ void ControlLoop::JudgePlan(bool late) {
   if (solve_ == nullptr) {
     return;
   }
-  dbc::FaultCode refusal = SolverFault(solve_->status);
-  if (refusal == dbc::FaultCode::kNone && !Acceptable(*solve_, controller_->horizon())) {
-    refusal = dbc::FaultCode::kPlanRejected;
-  }
-  if (late) {
-    refusal = dbc::FaultCode::kDeadlineMissed;
-  }
+  const dbc::FaultCode refusal =
+      late ? dbc::FaultCode::kDeadlineMissed : Refusal(*solve_, controller_->horizon());
   report_.plan_accepted = refusal == dbc::FaultCode::kNone;
   if (report_.plan_accepted) {
     plan_.Take(*solve_, steps_.step());
@@ -330,22 +290,6 @@ dbc::FaultCode ControlLoop::Fault(const ModeInputs& inputs) const {
     return dbc::FaultCode::kRouteEnd;
   if (mode_.mode == Mode::kStandby && !inputs.near_route) return dbc::FaultCode::kOffRoute;
   return dbc::FaultCode::kNone;
-}
-
-void ControlLoop::NameFaultyMessage(Time now) {
-  report_.faulty_message.reset();
-  report_.frame_fault.reset();
-  for (std::size_t i = 0; i < kRxMessages; ++i) {
-    const auto message = static_cast<RxMessage>(i);
-    const Health health = monitor_.HealthOf(message, now);
-    const bool refused = health.state == Health::State::kRefused;
-    const bool missing = health.state != Health::State::kFresh && message != RxMessage::kObstacleObject;
-    if (refused || missing) {  // without obstacles no ObstacleObject comes
-      report_.faulty_message = message;
-      if (refused) report_.frame_fault = health.reason;
-      return;
-    }
-  }
 }
 
 Time ControlLoop::Countdown(const ModeInputs& inputs) const {

@@ -102,7 +102,6 @@ class ControlLoop {
   [[nodiscard]] control::LimitResult Command() const;
   [[nodiscard]] control::LimitResult Measured() const;
   [[nodiscard]] dbc::FaultCode Fault(const ModeInputs& inputs) const;
-  void NameFaultyMessage(Time now);
   [[nodiscard]] Time Countdown(const ModeInputs& inputs) const;
   [[nodiscard]] bool Emit(const control::LimitedCommand& command, Trigger trigger);
   void EmitReports();

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "control/types.hpp"
-#include "daemon/message_monitor.hpp"
+#include "daemon/faulty_message.hpp"
 #include "daemon/mode_machine.hpp"
 #include "daemon/time.hpp"
 #include "dbc/messages.hpp"
@@ -21,9 +21,7 @@ struct CycleReport {
   int iterations = 0;  // of the solver
   bool plan_accepted = false;
   bool engagement_refused = false;  // the driver asked in this cycle and did not get it
-  std::optional<RxMessage> faulty_message =
-      std::nullopt;                                   // the first that does not come, or not as it should
-  std::optional<RxFault> frame_fault = std::nullopt;  // why its frames are refused, if they come
+  std::optional<FaultyMessage> faulty_message = std::nullopt;
   Time countdown = Time::max();  // until the vehicle is stopped, as things are; max: not driving
   int plan_age = -1;             // cycles, -1 without a plan
   int route_index = -1;          // point of the reference, -1 off the route

@@ -100,9 +100,9 @@ void EventLog::Times(const Latencies& latencies) {
 std::string FaultText(const CycleReport& report) {
   std::string text(Name(report.fault));
   if (report.fault != dbc::FaultCode::kNone && report.faulty_message) {
-    text +=
-        fmt::format(" ({} {})", Name(*report.faulty_message),
-                    report.frame_fault ? fmt::format("refused: {}", Name(*report.frame_fault)) : "missing");
+    const auto& [message, reason] = *report.faulty_message;
+    text += fmt::format(" ({} {})", Name(message),
+                        reason ? fmt::format("refused: {}", Name(*reason)) : "missing");
   }
   return text;
 }

@@ -47,11 +47,13 @@ void AppendHealth(const control::Plan* solve, CommandGate& gate, std::vector<can
 
 void AppendDiagnostics(const CycleReport& report, const ModeState& mode, CommandGate& gate,
                        std::vector<can::Frame>& frames) {
+  const auto& faulty = report.faulty_message;
   Append(dbc::ControllerDiagnostics{.cause = mode.cause,
                                     .previous_mode = mode.previous,
                                     .countdown = ToSeconds(report.countdown),
-                                    .faulty_message = CodeOf(report.faulty_message),
-                                    .frame_fault = CodeOf(report.frame_fault),
+                                    .faulty_message =
+                                        CodeOf(faulty ? std::optional(faulty->message) : std::nullopt),
+                                    .frame_fault = CodeOf(faulty ? faulty->reason : std::nullopt),
                                     .cycle_latency = ToSeconds(report.cycle_latency),
                                     .plans_refused = static_cast<std::uint16_t>(report.plans_refused % 1024)},
          gate, frames);

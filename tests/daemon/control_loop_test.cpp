@@ -430,8 +430,9 @@ TEST_F(ControlLoopTest, MessageThatStaysAwayIsNamedWithoutAFrameFault) {
     Give(vehicle_.Obstacles());
     Give(vehicle_.State());
   }
-  EXPECT_EQ(loop_.report().faulty_message, RxMessage::kDriverRequest);
-  EXPECT_EQ(loop_.report().frame_fault, std::nullopt);
+  ASSERT_TRUE(loop_.report().faulty_message);
+  EXPECT_EQ(loop_.report().faulty_message->message, RxMessage::kDriverRequest);
+  EXPECT_EQ(loop_.report().faulty_message->reason, std::nullopt);
   EXPECT_EQ(Period().diagnostics.faulty_message, 0);
 }
 

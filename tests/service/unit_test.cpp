@@ -2,6 +2,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iostream>
+#include <sched.h>
 
 #include "tests/service/machine.hpp"
 
@@ -78,6 +79,16 @@ TEST_F(Unit, RunsAsAUserOfItsOwnWithoutPrivileges) {
   EXPECT_THAT(status, HasSubstr("NoNewPrivs:\t1\n"));
   EXPECT_THAT(status, HasSubstr("CapEff:\t0000000000000000\n"));
   EXPECT_THAT(status, testing::Not(HasSubstr("Uid:\t0\t")));
+}
+
+TEST_F(Unit, IsGrantedTheRealTimeThatItsConfigurationAsksFor) {
+  StartDaemon();
+  EXPECT_TRUE(Says(kDaemon, "real time: "));
+  const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
+  EXPECT_EQ(::sched_getscheduler(pid), SCHED_FIFO);
+  EXPECT_THAT(Do({"cat", "/proc/" + std::to_string(pid) + "/status"}),
+              testing::Not(HasSubstr("VmLck:\t       0 kB")));
+  EXPECT_THAT(Property(kDaemon, "StatusText"), testing::Not(HasSubstr("refused")));
 }
 
 }  // namespace
