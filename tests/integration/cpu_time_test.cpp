@@ -40,7 +40,7 @@ double PeakMemory(pid_t pid) {
 TEST(CpuTime, DaemonAt20HzTakesLessThanAHundredthOfACoreAnd20Megabytes) {
   const test_support::TempDir folder;
   std::ofstream(folder / "scenario.toml")
-      << "name = \"cost\"\nroute = \"" << kDemonstration << "/route.toml\"\nduration = 40.0\n"
+      << "name = \"cost\"\nroute = \"" << kDemonstration << "/route.toml\"\nduration = 22.0\n"
       << "[[obstacle]]\nid = 1\ns = 300.0\nlateral = -0.3\nr_x = 1.0\nr_y = 1.0\nside = \"left\"\n";
   const int port = 20000 + ::getpid() % 20000;
   const auto by_udp = [port](int own, int peer, std::vector<std::string> command) {
@@ -59,7 +59,7 @@ TEST(CpuTime, DaemonAt20HzTakesLessThanAHundredthOfACoreAnd20Megabytes) {
 
   const auto begin = steady_clock::now();
   const double used = CpuTime(daemon.pid());
-  std::this_thread::sleep_for(30s);
+  std::this_thread::sleep_for(15s);
   const double elapsed = std::chrono::duration<double, std::nano>(steady_clock::now() - begin).count();
   const double percent = 100.0 * (CpuTime(daemon.pid()) - used) / elapsed;
   const double memory = PeakMemory(daemon.pid());

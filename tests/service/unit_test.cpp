@@ -85,7 +85,7 @@ TEST_F(Unit, IsGrantedTheRealTimeThatItsConfigurationAsksFor) {
   StartDaemon();
   EXPECT_TRUE(Says(kDaemon, "real time: "));
   const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
-  EXPECT_EQ(::sched_getscheduler(pid), SCHED_FIFO);
+  EXPECT_EQ(::sched_getscheduler(pid) & ~SCHED_RESET_ON_FORK, SCHED_FIFO);
   EXPECT_THAT(Do({"cat", "/proc/" + std::to_string(pid) + "/status"}),
               testing::Not(HasSubstr("VmLck:\t       0 kB")));
   EXPECT_THAT(Property(kDaemon, "StatusText"), testing::Not(HasSubstr("refused")));
