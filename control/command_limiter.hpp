@@ -1,5 +1,5 @@
-// The last judge of a command: range, rate (of the acceleration: jerk) and age. Only a limiter can make a LimitedCommand, and only a
-// LimitedCommand can be sent.
+// The last judge of a command: range, rate (of the acceleration: jerk) and age. Only a limiter can make a
+// LimitedCommand, and only a LimitedCommand can be sent.
 //
 // Limits are those of the paper (Section V, table of h^u, and the rate limits in the text): |δ| ≤ 34π/180,
 // |δ_k − δ_{k−1}| ≤ 25π/180, a ∈ [−6, 2], |a_k − a_{k−1}| ≤ 1.5.

@@ -114,8 +114,9 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
     Solve(engaging);
   }
   const Time elapsed = stopwatch_() - start;
-  const bool late = waited + elapsed > settings_.deadline;
-  step_ = steps_.step() + (late ? (waited + elapsed) / settings_.period : 0);
+  const Time age = waited + elapsed;
+  const bool late = age > settings_.deadline;
+  step_ = steps_.step() + (late ? age / settings_.period : 0);
   JudgePlan(late);
   if (engaging || driving) {
     inputs.plan_fault = PlanFault(inputs, late);
@@ -284,7 +285,7 @@ std::optional<Cause> ControlLoop::PlanFault(const ModeInputs& inputs, bool late)
 
 dbc::FaultCode ControlLoop::Fault(const ModeInputs& inputs) const {
   const bool stopped = mode_.mode == Mode::kSafeStop || mode_.mode == Mode::kFault;
-  const auto cause = stopped ? mode_.cause : InputFault(inputs) ? InputFault(inputs) : inputs.plan_fault;
+  const auto cause = stopped ? mode_.cause : PresentFault(inputs);
   if (cause) return *cause == Cause::kSolverFailed ? report_.last_refusal : FaultOf(*cause);
   if (mode_.mode == Mode::kStandby && inputs.near_route && inputs.route_left <= 0)
     return dbc::FaultCode::kRouteEnd;

@@ -14,12 +14,6 @@ std::optional<Cause> HardFault(const ModeInputs& inputs) {
   return std::nullopt;
 }
 
-// What can, for a while.
-std::optional<Cause> SoftFault(const ModeInputs& inputs) {
-  const auto fault = InputFault(inputs);
-  return fault ? fault : inputs.plan_fault;
-}
-
 Cause SilenceCause(const ModeInputs& inputs) {
   return inputs.bus_up ? Cause::kSilent : Cause::kBusDown;
 }
@@ -71,7 +65,7 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSetti
         enter(Mode::kFault, SilenceCause(inputs));
       } else if (const auto hard = HardFault(inputs)) {
         enter(Mode::kSafeStop, *hard);
-      } else if (const auto soft = SoftFault(inputs)) {
+      } else if (const auto soft = PresentFault(inputs)) {
         const int left = state.mode == Mode::kDegraded ? state.degraded_left : settings.degraded_cycles;
         if (left == 0) {
           enter(Mode::kSafeStop, *soft);
@@ -119,6 +113,11 @@ std::optional<Cause> InputFault(const ModeInputs& inputs) {
   if (!inputs.obstacles_fresh) return Cause::kObstaclesStale;
   if (!inputs.request_fresh) return Cause::kDriverRequestStale;
   return std::nullopt;
+}
+
+std::optional<Cause> PresentFault(const ModeInputs& inputs) {
+  const auto fault = InputFault(inputs);
+  return fault ? fault : inputs.plan_fault;
 }
 
 dbc::FaultCode FaultOf(Cause cause) {

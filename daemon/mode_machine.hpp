@@ -26,6 +26,8 @@
 
 namespace lpvmpcd {
 
+using dbc::Commands;
+using dbc::Drives;
 using dbc::Mode;
 
 // Consecutive healthy cycles before Init is left and before engagement.
@@ -64,6 +66,8 @@ using Cause = dbc::ModeCause;
 [[nodiscard]] dbc::FaultCode FaultOf(Cause cause);
 // What is wrong with the inputs, the gravest first: the reason of a stop, or why it would not engage.
 [[nodiscard]] std::optional<Cause> InputFault(const ModeInputs& inputs);
+// The same, or else why there is no new plan.
+[[nodiscard]] std::optional<Cause> PresentFault(const ModeInputs& inputs);
 
 struct ModeSettings {
   int degraded_cycles = 20;  // in a row, before the vehicle is stopped; ≥ 0
@@ -87,15 +91,5 @@ struct ModeState {
 // True if Next would engage, given a plan: the cycle then has to make one. Its answer does not depend on
 // `inputs.plan_usable`.
 [[nodiscard]] bool EngagementRequested(const ModeState& state, const ModeInputs& inputs);
-
-// True in the modes that drive along a plan.
-[[nodiscard]] constexpr bool Drives(Mode mode) {
-  return mode == Mode::kActive || mode == Mode::kDegraded;
-}
-
-// True in the modes whose commands the vehicle is to obey.
-[[nodiscard]] constexpr bool Commands(Mode mode) {
-  return Drives(mode) || mode == Mode::kSafeStop;
-}
 
 }  // namespace lpvmpcd

@@ -66,6 +66,15 @@ enum class Mode : std::uint8_t {
   kFault = 5
 };
 
+// True in the modes that drive along a plan.
+[[nodiscard]] constexpr bool Drives(Mode mode) {
+  return mode == Mode::kActive || mode == Mode::kDegraded;
+}
+// True in the modes whose commands the vehicle is to obey.
+[[nodiscard]] constexpr bool Commands(Mode mode) {
+  return Drives(mode) || mode == Mode::kSafeStop;
+}
+
 struct SteeringCommand {
   bool enable = false;
   Mode mode = Mode::kInit;

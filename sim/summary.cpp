@@ -20,10 +20,6 @@ void KeepSmaller(std::optional<double>& smallest, double value) {
   smallest = std::min(smallest.value_or(value), value);
 }
 
-bool Drives(dbc::Mode mode) {
-  return mode == dbc::Mode::kActive || mode == dbc::Mode::kDegraded;
-}
-
 class Judge {
  public:
   explicit Judge(std::vector<std::string>& failed) : failed_(&failed) {}
