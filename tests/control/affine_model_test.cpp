@@ -27,43 +27,33 @@ class AffineModelTest : public ::testing::Test {
   DiscreteModel discrete_{model_, kTs};
 };
 
-// Central differences of a function of [z; u].
+// Holds the derivatives of f(z, u) against its central differences.
 template <typename Function>
-LinearModel Differences(const State& z, const Input& u, Function f) {
+void ExpectDerivatives(const LinearModel& exact, const State& z, const Input& u, double tolerance,
+                       Function f) {
   constexpr double kStep = 1e-5;
-  LinearModel d;
+  LinearModel near;
   for (int j = 0; j < kStates; ++j) {
     const State e = kStep * State::Unit(j);
-    d.A.col(j) = (f(State(z + e), u) - f(State(z - e), u)) / (2.0 * kStep);
+    near.A.col(j) = (f(State(z + e), u) - f(State(z - e), u)) / (2.0 * kStep);
   }
   for (int j = 0; j < kInputs; ++j) {
     const Input e = kStep * Input::Unit(j);
-    d.B.col(j) = (f(z, Input(u + e)) - f(z, Input(u - e))) / (2.0 * kStep);
+    near.B.col(j) = (f(z, Input(u + e)) - f(z, Input(u - e))) / (2.0 * kStep);
   }
-  return d;
+  EXPECT_LT((exact.A - near.A).cwiseAbs().maxCoeff(), tolerance) << z[kUpsilon];
+  EXPECT_LT((exact.B - near.B).cwiseAbs().maxCoeff(), tolerance) << z[kUpsilon];
 }
 
-TEST_F(AffineModelTest, JacobianOfTheModelIsThatOfItsDifferencesAtAnySpeed) {
+TEST_F(AffineModelTest, DerivativesOfTheModelAndOfItsStepAreThoseOfTheirDifferencesAtAnySpeed) {
   for (double upsilon = 0.0; upsilon < 35.0; upsilon += 0.37) {
     const State z = RandomState(upsilon);
     const Input u = RandomInput();
-    const LinearModel exact = model_.Jacobian(z, u);
-    const LinearModel near =
-        Differences(z, u, [this](const State& x, const Input& v) { return model_.Derivative(x, v); });
-    EXPECT_LT((exact.A - near.A).cwiseAbs().maxCoeff(), 1e-5) << upsilon;
-    EXPECT_LT((exact.B - near.B).cwiseAbs().maxCoeff(), 1e-5) << upsilon;
-  }
-}
-
-TEST_F(AffineModelTest, ExpansionIsExactToFirstOrderAtAnySpeed) {
-  for (double upsilon = 0.0; upsilon < 35.0; upsilon += 0.37) {
-    const State z = RandomState(upsilon);
-    const Input u = RandomInput();
+    ExpectDerivatives(model_.Jacobian(z, u), z, u, 1e-5,
+                      [this](const State& x, const Input& v) { return model_.Derivative(x, v); });
     const AffineModel expansion = discrete_.Expand(z, u);
-    const LinearModel near =
-        Differences(z, u, [this](const State& x, const Input& v) { return discrete_.Step(x, v); });
-    EXPECT_LT((expansion.linear.A - near.A).cwiseAbs().maxCoeff(), 1e-7) << upsilon;
-    EXPECT_LT((expansion.linear.B - near.B).cwiseAbs().maxCoeff(), 1e-7) << upsilon;
+    ExpectDerivatives(expansion.linear, z, u, 1e-7,
+                      [this](const State& x, const Input& v) { return discrete_.Step(x, v); });
     const State value = expansion.linear.A * z + expansion.linear.B * u + expansion.c;
     EXPECT_LT((value - discrete_.Step(z, u)).cwiseAbs().maxCoeff(), 1e-12) << upsilon;
   }

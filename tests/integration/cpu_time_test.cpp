@@ -27,16 +27,6 @@ double CpuTime(pid_t pid) {
   return time;
 }
 
-// The most that it ever had in memory [MB].
-double PeakMemory(pid_t pid) {
-  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-  for (std::string key; status >> key;) {
-    double kilobytes = 0.0;
-    if (key == "VmHWM:" && status >> kilobytes) return kilobytes / 1024.0;
-  }
-  return 0.0;
-}
-
 TEST(CpuTime, DaemonAt20HzTakesLessThanAHundredthOfACoreAnd20Megabytes) {
   const test_support::TempDir folder;
   std::ofstream(folder / "scenario.toml")
@@ -62,7 +52,8 @@ TEST(CpuTime, DaemonAt20HzTakesLessThanAHundredthOfACoreAnd20Megabytes) {
   std::this_thread::sleep_for(15s);
   const double elapsed = std::chrono::duration<double, std::nano>(steady_clock::now() - begin).count();
   const double percent = 100.0 * (CpuTime(daemon.pid()) - used) / elapsed;
-  const double memory = PeakMemory(daemon.pid());
+  const double memory =
+      std::stod(test_support::KernelSays(daemon.pid(), "VmHWM")) / 1024.0;  // the most that it had [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of a core, " << memory << " MB\n";
   EXPECT_EQ(vehicle.Wait(60s), 0) << vehicle.Stderr();  // it drove
   EXPECT_GT(percent, 0.0);

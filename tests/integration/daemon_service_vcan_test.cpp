@@ -32,14 +32,6 @@ class DaemonService : public DaemonOnBus {
     daemon_.emplace(command);
     ASSERT_TRUE(NextPair(10s));  // the timer's: it listens
   }
-  // A figure of the kernel's about the daemon, in its own words: "VmRSS" ...
-  std::string KernelSays(const std::string& name) const {
-    std::ifstream status("/proc/" + std::to_string(daemon_->pid()) + "/status");
-    for (std::string line; std::getline(status, line);) {
-      if (line.starts_with(name + ":")) return line.substr(line.find_first_not_of(" \t", name.size() + 1));
-    }
-    return "";
-  }
   void Reload(const std::string& text) {
     Configure(text);
     daemon_->Signal(SIGHUP);
@@ -52,17 +44,17 @@ TEST_F(DaemonService, GetsTheRealTimeThatItAsksForAndSaysSo) {
   Configure("[realtime]\nfifo_priority = 10\nlock_memory = true\ncpus = [0]\n");
   StartDaemon();
   EXPECT_EQ(::sched_getscheduler(daemon_->pid()) == (SCHED_FIFO | SCHED_RESET_ON_FORK), may);
-  EXPECT_EQ(KernelSays("Cpus_allowed_list"), "0");
+  EXPECT_EQ(test_support::KernelSays(daemon_->pid(), "Cpus_allowed_list"), "0");
   EXPECT_TRUE(LogSays("real time: cpus 0"));
   if (may) {
     EXPECT_TRUE(LogSays("real time: cpus 0, memory locked, SCHED_FIFO 10"));
     EXPECT_THAT(daemon_->Stderr(), Not(HasSubstr("refused")));
-    EXPECT_GT(std::stoi(KernelSays("VmLck")), 1000);
+    EXPECT_GT(std::stoi(test_support::KernelSays(daemon_->pid(), "VmLck")), 1000);
   }
   Engage();
   EXPECT_EQ(Period().steering.mode, Mode::kActive);
-  EXPECT_LT(std::stoi(KernelSays("VmRSS")), 20 * 1024) << "kB";
-  std::printf("resident with locked memory: %s\n", KernelSays("VmRSS").c_str());
+  EXPECT_LT(std::stoi(test_support::KernelSays(daemon_->pid(), "VmRSS")), 20 * 1024) << "kB";
+  std::printf("resident with locked memory: %s\n", test_support::KernelSays(daemon_->pid(), "VmRSS").c_str());
 }
 
 TEST_F(DaemonService, RunsWithoutTheRealTimeThatItIsRefusedAndNamesIt) {

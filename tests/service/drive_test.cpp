@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "tests/service/machine.hpp"
+#include "tests/support/process.hpp"
 
 namespace service_test {
 namespace {
@@ -15,13 +16,6 @@ using dbc::Mode;
 using std::chrono::steady_clock;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-// VmHWM of the daemon, the most that it ever had in memory [MB].
-double PeakMemory() {
-  const std::string status = Do({"cat", "/proc/" + Property(kDaemon, "MainPID") + "/status"});
-  const std::string mark = "VmHWM:";
-  return std::stod(status.substr(status.find(mark) + mark.size())) / 1024;
-}
 
 class Drive : public Service {
  protected:
@@ -63,7 +57,9 @@ TEST_F(Drive, DemonstrationMeetsItsExpectationsWithLittleMemory) {
 
   // The kernel counts by its tick of 10 ms and takes 100 times what a processor's own takes for a system call, so the
   // share of the processor is a figure to look at and no limit.
-  const double memory = PeakMemory();
+  const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
+  const double memory =
+      std::stod(test_support::KernelSays(pid, "VmHWM")) / 1024.0;  // the most that it had [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of this processor, " << memory
             << " MB\n";
   EXPECT_GT(percent, 0.0);

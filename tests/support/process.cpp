@@ -88,6 +88,14 @@ std::string Process::Stderr() const {
   return ReadAll(folder_ / "stderr");
 }
 
+std::string KernelSays(pid_t pid, const std::string& name) {
+  std::ifstream status("/proc/" + std::to_string(pid) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(name + ":")) return line.substr(line.find_first_not_of(" \t", name.size() + 1));
+  }
+  return "";
+}
+
 Outcome Run(const std::vector<std::string>& argv, std::chrono::milliseconds timeout) {
   Process process(argv);
   const std::optional<int> status = process.Wait(timeout);

@@ -43,6 +43,9 @@ class Process {
   std::optional<int> status_;
 };
 
+// What the kernel says of a process under this name in /proc/PID/status, "11512 kB" of "VmRSS"; "" if nothing.
+[[nodiscard]] std::string KernelSays(pid_t pid, const std::string& name);
+
 struct Outcome {
   int status = 0;  // as of Process::Wait
   std::string out;
