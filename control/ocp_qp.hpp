@@ -1,11 +1,17 @@
 // The optimal-control quadratic program that every controller here solves:
 //
 //   min   Σ_{i=0..N} ½ xᵢᵀ diag(Q_i) xᵢ + q_iᵀ xᵢ  +  Σ_{i=0..N-1} ½ uᵢᵀ diag(R_i) uᵢ + r_iᵀ uᵢ
-//         +  Σ_soft ½ ρ ε²
+//         +  Σ_soft ½ ρ ε² + σ ε
 //   s.t.  x_0 given,   x_{i+1} = A_i xᵢ + B_i uᵢ + c_i
-//         lo − ε ≤ C xᵢ + D uᵢ ≤ hi + ε     for every row of stage i; ε = 0 where the row is hard
+//         lo − ε ≤ C xᵢ + D uᵢ ≤ hi + ε     for every row of stage i; ε = 0 where the row is hard,
+//                                           ε ≥ 0 where σ > 0
 //
 // A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 it is convex.
+//
+// With σ = 0 a soft row gives way a little as soon as holding it costs anything. With σ > 0 the penalty is
+// exact: an optimum with these rows hard, whose multipliers λ_lo + λ_hi there are each at most σ, is the optimum
+// with them soft, too. So σ above them violates no row that can hold. In a violated row λ_lo + λ_hi = σ + ρ ε.
+// Source: R. Fletcher, Practical Methods of Optimization, 2nd edition (1987), chapter 14 (exact penalty).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,10 +33,12 @@ struct OcpQpRow {
   Eigen::Matrix<double, kNu, 1> D = Eigen::Matrix<double, kNu, 1>::Zero();
   double lo = -kNoBound;
   double hi = kNoBound;
-  double rho = -1.0;    // weight of the slack; negative: hard row
+  double rho = -1.0;   // ρ, weight of the slack's square; negative: hard row
+  double sigma = 0.0;  // σ ≥ 0, weight of the slack in a soft row, cost per unit of the row: exact penalty
   int unit = kGeneral;  // index in [x; u] if the row bounds that variable alone, with coefficient 1
 
   [[nodiscard]] bool soft() const { return rho >= 0.0; }
+  [[nodiscard]] bool exact() const { return soft() && sigma > 0.0; }  // its slack has the bound ε ≥ 0
   [[nodiscard]] bool has_lo() const { return lo > -kNoBound; }
   [[nodiscard]] bool has_hi() const { return hi < kNoBound; }
 };
@@ -51,11 +59,11 @@ struct OcpQpStage {
 
   void ClearRows() { row_count = 0; }
   // lo ≤ x[index] ≤ hi and lo ≤ u[index] ≤ hi. False, and nothing added, if the stage is full.
-  [[nodiscard]] bool AddStateBound(int index, double lo, double hi, double rho = -1.0);
-  [[nodiscard]] bool AddInputBound(int index, double lo, double hi, double rho = -1.0);
+  [[nodiscard]] bool AddStateBound(int index, double lo, double hi, double rho = -1.0, double sigma = 0.0);
+  [[nodiscard]] bool AddInputBound(int index, double lo, double hi, double rho = -1.0, double sigma = 0.0);
   // lo ≤ C x + D u ≤ hi.
   [[nodiscard]] bool AddRow(const Eigen::Matrix<double, kNx, 1>& C, const Eigen::Matrix<double, kNu, 1>& D,
-                            double lo, double hi, double rho = -1.0);
+                            double lo, double hi, double rho = -1.0, double sigma = 0.0);
 };
 
 // Stages 0..N; everything is sized at construction.
@@ -68,7 +76,8 @@ struct OcpQp {
   std::vector<OcpQpStage<kNx, kNu>> stages;
 };
 
-// Multipliers of a row: λ_lo of C x + D u + ε ≥ lo, λ_hi of C x + D u − ε ≤ hi; both ≥ 0.
+// Multipliers of a row: λ_lo of C x + D u + ε ≥ lo, λ_hi of C x + D u − ε ≤ hi; both ≥ 0. That
+// of ε ≥ 0, where σ > 0, follows from them: λ_ε = ρ ε + σ − λ_lo − λ_hi.
 struct RowMultiplier {
   double lo = 0.0;
   double hi = 0.0;
@@ -91,10 +100,10 @@ struct OcpQpPoint {
 
 // The largest violation, in absolute terms, of each of the conditions of optimality (Karush, Kuhn, Tucker).
 struct KktResidual {
-  double stationarity = 0.0;     // gradient of the Lagrangian with respect to x, u and ε
+  double stationarity = 0.0;     // gradient of the Lagrangian with respect to x, u and, where σ = 0, ε
   double dynamics = 0.0;         // x_0 and x_{i+1} = A x + B u + c
-  double rows = 0.0;             // lo − ε ≤ C x + D u ≤ hi + ε
-  double multipliers = 0.0;      // λ ≥ 0
+  double rows = 0.0;             // lo − ε ≤ C x + D u ≤ hi + ε, and ε ≥ 0 where σ > 0
+  double multipliers = 0.0;      // λ ≥ 0, λ_ε among them
   double complementarity = 0.0;  // λ times its row's distance to the bound
 
   [[nodiscard]] double Max() const {

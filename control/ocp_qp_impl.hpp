@@ -9,29 +9,30 @@
 namespace control {
 
 template <int kNx, int kNu>
-bool OcpQpStage<kNx, kNu>::AddStateBound(int index, double lo, double hi, double rho) {
+bool OcpQpStage<kNx, kNu>::AddStateBound(int index, double lo, double hi, double rho, double sigma) {
   if (row_count == kMaxRows) return false;
   Row& row = rows[static_cast<std::size_t>(row_count++)];
-  row = Row{.lo = lo, .hi = hi, .rho = rho, .unit = index};
+  row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = index};
   row.C[index] = 1.0;
   return true;
 }
 
 template <int kNx, int kNu>
-bool OcpQpStage<kNx, kNu>::AddInputBound(int index, double lo, double hi, double rho) {
+bool OcpQpStage<kNx, kNu>::AddInputBound(int index, double lo, double hi, double rho, double sigma) {
   if (row_count == kMaxRows) return false;
   Row& row = rows[static_cast<std::size_t>(row_count++)];
-  row = Row{.lo = lo, .hi = hi, .rho = rho, .unit = kNx + index};
+  row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = kNx + index};
   row.D[index] = 1.0;
   return true;
 }
 
 template <int kNx, int kNu>
 bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
-                                  const Eigen::Matrix<double, kNu, 1>& D, double lo, double hi, double rho) {
+                                  const Eigen::Matrix<double, kNu, 1>& D, double lo, double hi, double rho,
+                                  double sigma) {
   if (row_count == kMaxRows) return false;
   Row& row = rows[static_cast<std::size_t>(row_count++)];
-  row = Row{.C = C, .D = D, .lo = lo, .hi = hi, .rho = rho};
+  row = Row{.C = C, .D = D, .lo = lo, .hi = hi, .rho = rho, .sigma = sigma};
   int entries = 0;
   for (int k = 0; k < kNx + kNu; ++k) {
     const double entry = k < kNx ? C[k] : D[k - kNx];
@@ -69,7 +70,14 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
       const double value = row.C.dot(at.x) + (terminal ? 0.0 : row.D.dot(at.u));
       gradient_x -= row.C * (lambda.lo - lambda.hi);
       gradient_u -= row.D * (lambda.lo - lambda.hi);
-      if (row.soft()) raise(residual.stationarity, row.rho * epsilon - lambda.lo - lambda.hi);
+      if (row.exact()) {
+        const double lambda_epsilon = row.rho * epsilon + row.sigma - lambda.lo - lambda.hi;
+        raise(residual.rows, std::min(0.0, epsilon));
+        raise(residual.multipliers, std::min(0.0, lambda_epsilon));
+        raise(residual.complementarity, lambda_epsilon * epsilon);
+      } else if (row.soft()) {
+        raise(residual.stationarity, row.rho * epsilon - lambda.lo - lambda.hi);
+      }
       raise(residual.multipliers, std::min({0.0, lambda.lo, lambda.hi}));
       if (row.has_lo()) {
         const double distance = value + epsilon - row.lo;
@@ -103,7 +111,8 @@ double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point
     cost += 0.5 * at.x.dot(stage.Q.cwiseProduct(at.x)) + stage.q.dot(at.x);
     if (i + 1 < qp.stages.size()) cost += 0.5 * at.u.dot(stage.R.cwiseProduct(at.u)) + stage.r.dot(at.u);
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
-      if (stage.rows[j].soft()) cost += 0.5 * stage.rows[j].rho * at.slack[j] * at.slack[j];
+      const auto& row = stage.rows[j];
+      if (row.soft()) cost += (0.5 * row.rho * at.slack[j] + row.sigma) * at.slack[j];
     }
   }
   return cost;

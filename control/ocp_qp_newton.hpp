@@ -1,10 +1,12 @@
 // The Newton system of OcpQpSolver and its solution: definitions of the solver's Factorise and Step.
 //
 // Each bound is an equation with a distance t ≥ 0 and a multiplier λ ≥ 0,
-//   C x + D u + ε − lo = t_lo,   hi + ε − C x − D u = t_hi,   λ t = σμ.
+//   C x + D u + ε − lo = t_lo,   hi + ε − C x − D u = t_hi,   ε = t_ε,   λ t = target,
+// the third in soft rows with σ > 0, and a soft row's slack has the stationarity
+//   ρ ε + σ − λ_lo − λ_hi − λ_ε = 0.
 // Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a curvature on C dx + D du,
-//   w = w_lo + w_hi − (w_lo − w_hi)² / (ρ + w_lo + w_hi),   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi likewise
-// (the last term in soft rows only),
+//   w = w_lo + w_hi − (w_lo − w_hi)² / (ρ + w_lo + w_hi + w_ε),   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi, w_ε likewise
+// (the last term in soft rows only; w_ε = 0 where σ = 0),
 // and a gradient term. δ regularises the step alone, dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤
 // 1/δ and so the digits of P, and vanishes with dλ. What remains is
 //   min ½ dxᵀ(Q + Σ w CCᵀ)dx + duᵀ(Σ w DCᵀ)dx + ½ duᵀ(R + Σ w DDᵀ)du + g_xᵀdx + g_uᵀdu,  dx' = A dx + B du,
@@ -41,8 +43,9 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
       };
       side(at.lo);
       side(at.hi);
+      side(at.slack);
       at.w = at.lo.w + at.hi.w;
-      const double s = stage.rows[j].rho + at.w;
+      const double s = stage.rows[j].rho + at.w + at.slack.w;
       at.inverse_s = stage.rows[j].soft() && s > 0.0 ? 1.0 / s : 0.0;
       at.w -= (at.lo.w - at.hi.w) * (at.lo.w - at.hi.w) * at.inverse_s;
     }
@@ -120,8 +123,9 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
       };
       side(at.lo);
       side(at.hi);
-      const double gradient =
-          at.hi.y - at.lo.y + (at.lo.w - at.hi.w) * (at.lo.y + at.hi.y - at.r_epsilon) * at.inverse_s;
+      side(at.slack);
+      at.y = at.lo.y + at.hi.y + at.slack.y - at.r_epsilon;
+      const double gradient = at.hi.y - at.lo.y + (at.lo.w - at.hi.w) * at.y * at.inverse_s;
       if (row.unit >= 0 && row.unit < kNx) {
         work.p[row.unit] += gradient;
       } else {
@@ -146,13 +150,14 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
   }
   detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& at, const StageWork& stage) {
     const double dg = detail::RowValue(row, stage.dx, stage.du);
-    at.depsilon = (at.lo.y + at.hi.y - at.r_epsilon - (at.lo.w - at.hi.w) * dg) * at.inverse_s;
+    at.depsilon = (at.y - (at.lo.w - at.hi.w) * dg) * at.inverse_s;
     const auto side = [](Side& s, double distance_step) {
       s.dlambda = s.y - s.w * distance_step;
       s.dt = distance_step + s.residual + kDualRegularisation * s.dlambda;
     };
     side(at.lo, dg + at.depsilon);
     side(at.hi, -dg + at.depsilon);
+    side(at.slack, at.depsilon);
   });
 }
 

@@ -48,7 +48,7 @@ class OcpQpSolver {
   //   kInfeasible        solution()'s multipliers prove it (ProvesInfeasible)
   //   kIterationLimit    neither within max_iterations; solution() is the last iterate. So ends also a
   //                      contradiction by little between rows whose inputs have no hard bounds
-  //   kNumericalFailure  data not finite, or a factorisation broke down; solution() is meaningless
+  //   kNumericalFailure  data not finite, σ < 0, or a factorisation broke down; solution() is meaningless
   QpResult Solve(const Qp& qp, const Point* guess = nullptr);
 
   [[nodiscard]] const Point& solution() const { return point_; }
@@ -63,7 +63,8 @@ class OcpQpSolver {
   using MatrixUX = Eigen::Matrix<double, kNu, kNx>;
   using MatrixUU = Eigen::Matrix<double, kNu, kNu>;
 
-  // One bound of a row: its distance to the bound as a variable t > 0 of its own, and the Newton step.
+  // One bound of a row or of its slack: the distance to the bound as a variable t > 0 of its own, and the
+  // Newton step.
   struct Side {
     bool present = false;
     double bound = 0.0;  // for deviations from the base
@@ -78,9 +79,11 @@ class OcpQpSolver {
   };
   struct RowWork {
     Side lo, hi;
+    Side slack;  // ε ≥ 0, present where σ > 0
     double epsilon = 0.0;
-    double r_epsilon = 0.0;
-    double inverse_s = 0.0;  // 1 / (ρ + w_lo + w_hi); 0 of a hard row
+    double r_epsilon = 0.0;  // gradient of the Lagrangian with respect to ε
+    double inverse_s = 0.0;  // 1 / (ρ + w_lo + w_hi + w_ε); 0 of a hard row
+    double y = 0.0;          // y_lo + y_hi + y_ε − r_epsilon
     double w = 0.0;
     VectorX C_K = VectorX::Zero();  // C + KᵀD; not used where the row bounds a state alone
     double depsilon = 0.0;
@@ -113,7 +116,7 @@ class OcpQpSolver {
   Point point_;
   std::vector<StageWork> work_;
   double mu_ = 0.0;            // mean complementarity
-  int sides_ = 0;              // finite bounds
+  int sides_ = 0;              // finite bounds, those of slacks among them
   double row_residual_ = 0.0;  // largest |distance − t|
 };
 

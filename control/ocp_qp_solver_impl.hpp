@@ -2,7 +2,7 @@
 //
 // The base is the optimum without any row. About it the cost is purely quadratic and the dynamics have no
 // constant:
-//   min Σ ½ xᵀQx + ½ uᵀRu + Σ_soft ½ρε²   s.t.  x_0 = 0, x' = A x + B u,  lo − ε ≤ C x + D u ≤ hi + ε
+//   min Σ ½ xᵀQx + ½ uᵀRu + Σ_soft ½ρε² + σε   s.t.  x_0 = 0, x' = A x + B u,  lo − ε ≤ C x + D u ≤ hi + ε
 // with shifted bounds; x, u, π below are these deviations. So positions of hundreds of metres cost no digits.
 //
 // The Newton system, with a distance t ≥ 0 and a multiplier λ ≥ 0 for each bound, is in ocp_qp_newton.hpp.
@@ -26,8 +26,9 @@ double ZeroIfFinite(const Matrix& matrix) {
   return (0.0 * matrix).sum();
 }
 
-// True if every number is finite, but for the infinite bounds that are absent. Comparisons alone would not
-// do: a bound that is not a number looks absent, a weight that is not one looks like a hard row's.
+// True if every number is finite, but for the infinite bounds that are absent, and no σ negative.
+// Comparisons alone would not do: a bound that is not a number looks absent, a weight that is not one looks
+// like a hard row's.
 template <int kNx, int kNu>
 bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
   double zero = ZeroIfFinite(qp.x0);
@@ -40,8 +41,8 @@ bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
-      if (!(row.lo < kNoBound) || !(row.hi > -kNoBound)) return false;
-      zero += ZeroIfFinite(row.C) + ZeroIfFinite(row.D) + 0.0 * row.rho;
+      if (!(row.lo < kNoBound) || !(row.hi > -kNoBound) || !(row.sigma >= 0.0)) return false;
+      zero += ZeroIfFinite(row.C) + ZeroIfFinite(row.D) + 0.0 * row.rho + 0.0 * row.sigma;
     }
   }
   return zero == 0.0;
@@ -139,19 +140,22 @@ bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
     work = RowWork{};
     work.lo.present = row.has_lo();
     work.hi.present = row.has_hi();
+    work.slack.present = row.exact();
     work.lo.bound = row.lo - value;
     work.hi.bound = row.hi - value;
     satisfied = satisfied && work.lo.bound <= 0.0 && work.hi.bound >= 0.0;
-    sides_ += static_cast<int>(row.has_lo()) + static_cast<int>(row.has_hi());
+    sides_ += static_cast<int>(row.has_lo()) + static_cast<int>(row.has_hi()) + static_cast<int>(row.exact());
   });
   return satisfied;
 }
 
-// Every distance is at least that share of its row's width (of 1 in a wider row) and 1e-3.
+// Every distance is at least that share of its row's width (of 1 in a wider row) and 1e-3. Where σ > 0 the
+// slack starts stationary, with λ_ε ε = μ, so λ_lo + λ_hi must stay below σ + ρ ε.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x,
                                      const VectorU& u, double share, double mu,
                                      const RowMultiplier& at_least) {
+  constexpr double kLeastShare = 0.1;  // of σ, for λ_ε
   const double least = share * std::clamp(row.hi - row.lo, 0.0, 1.0) + 1e-3;
   const double value = detail::RowValue(row, x, u);
   const auto side = [&](Side& s, double distance, double lambda) {
@@ -160,7 +164,22 @@ void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& wor
   };
   side(work.lo, value - work.lo.bound, at_least.lo);
   side(work.hi, work.hi.bound - value, at_least.hi);
-  work.epsilon = row.rho > 0.0 ? (work.lo.lambda + work.hi.lambda) / row.rho : 0.0;
+  double lambda = work.lo.lambda + work.hi.lambda;
+  if (!row.exact()) {
+    work.epsilon = row.rho > 0.0 ? lambda / row.rho : 0.0;
+    return;
+  }
+  const double violation = std::max({0.0, work.lo.bound - value, value - work.hi.bound});
+  const double most = row.sigma + row.rho * violation - std::min(kLeastShare * row.sigma, mu / violation);
+  if (lambda > most) {
+    work.lo.lambda *= most / lambda;
+    work.hi.lambda *= most / lambda;
+    lambda = most;
+  }
+  const double half = 0.5 * (row.sigma - lambda);
+  const double root = std::sqrt(half * half + row.rho * mu);
+  work.slack.lambda = half > 0.0 ? half + root : row.rho * mu / (root - half);
+  work.slack.t = work.epsilon = mu / work.slack.lambda;
 }
 
 // From the base.
@@ -235,8 +254,9 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
       };
       side(at.lo, value + at.epsilon - at.lo.bound);
       side(at.hi, at.hi.bound + at.epsilon - value);
+      side(at.slack, at.epsilon);
       if (row.soft()) {
-        at.r_epsilon = row.rho * at.epsilon - at.lo.lambda - at.hi.lambda;
+        at.r_epsilon = row.rho * at.epsilon + row.sigma - at.lo.lambda - at.hi.lambda - at.slack.lambda;
         raise(at.r_epsilon);
       }
     }
@@ -260,6 +280,7 @@ double OcpQpSolver<kNx, kNu>::StepLength(const Qp& qp, double keep) const {
   detail::ForEachRow(qp, work_, [&](const auto&, const RowWork& at, const auto&) {
     side(at.lo);
     side(at.hi);
+    side(at.slack);
   });
   return keep * alpha;
 }
@@ -273,6 +294,7 @@ double OcpQpSolver<kNx, kNu>::ComplementarityAfter(const Qp& qp, double alpha) c
   detail::ForEachRow(qp, work_, [&](const auto&, const RowWork& at, const auto&) {
     side(at.lo);
     side(at.hi);
+    side(at.slack);
   });
   return sum / std::max(sides_, 1);
 }
@@ -292,6 +314,7 @@ void OcpQpSolver<kNx, kNu>::Move(const Qp& qp, double alpha) {
   detail::ForEachRow(qp, work_, [&](const auto&, RowWork& at, const auto&) {
     side(at.lo);
     side(at.hi);
+    side(at.slack);
     at.epsilon += alpha * at.depsilon;
   });
 }

@@ -69,7 +69,8 @@ SparseQp Flatten(const OcpQp<kNx, kNu>& qp) {
         if (slack >= 0) flat.Add(index, slack, sign);
       };
       if (row.soft()) {
-        const int slack = flat.AddVariable(row.rho, 0.0);
+        const int slack = flat.AddVariable(row.rho, row.sigma);
+        if (row.exact()) flat.Add(flat.AddRow(0.0, kNoBound), slack, 1.0);
         if (row.has_lo()) add(row.lo, kNoBound, slack, 1.0);
         if (row.has_hi()) add(-kNoBound, row.hi, slack, -1.0);
       } else {

@@ -66,9 +66,17 @@ TEST(OcpQpSolverAgainstIpopt, AnotherSizeHasTheSameOptimum) {
   for (int i = 0; i < 40; ++i) ExpectIpoptsOptimum(RandomQp<4, 1>(random, {}), i);
 }
 
+TEST(OcpQpSolverAgainstIpopt, ExactPenaltiesHaveTheSameOptimum) {
+  Random random(6);
+  for (int i = 0; i < 60; ++i) ExpectIpoptsOptimum(RandomQp<8, 2>(random, {.exact = 0.7}), i);
+  for (int i = 0; i < 40; ++i) {
+    ExpectIpoptsOptimum(RandomQp<4, 1>(random, {.equalities = 0.1, .exact = 1.0}), 60 + i);
+  }
+}
+
 template <int kNx, int kNu>
-void ExpectProofOfInfeasibility(Random& random, int instance) {
-  OcpQp<kNx, kNu> qp = RandomQp<kNx, kNu>(random, {});
+void ExpectProofOfInfeasibility(Random& random, int instance, const RandomQpOptions& options) {
+  OcpQp<kNx, kNu> qp = RandomQp<kNx, kNu>(random, options);
   const double beyond = std::pow(10.0, random.Uniform(-3.0, 1.0));
   testing::MakeInfeasible(random, qp, beyond);
   OcpQpSolver<kNx, kNu> solver(qp.horizon());
@@ -80,8 +88,16 @@ void ExpectProofOfInfeasibility(Random& random, int instance) {
 TEST(OcpQpSolverAgainstIpopt, InfeasibleProblemsAreProvenAndIpoptFindsNoPointEither) {
   Random random(5);
   for (int i = 0; i < 15; ++i) {
-    ExpectProofOfInfeasibility<8, 2>(random, i);
-    ExpectProofOfInfeasibility<4, 1>(random, i);
+    ExpectProofOfInfeasibility<8, 2>(random, i, {});
+    ExpectProofOfInfeasibility<4, 1>(random, i, {});
+  }
+}
+
+TEST(OcpQpSolverAgainstIpopt, InfeasibleProblemsWithExactPenaltiesAreProven) {
+  Random random(7);
+  for (int i = 0; i < 15; ++i) {
+    ExpectProofOfInfeasibility<8, 2>(random, i, {.exact = 0.7});
+    ExpectProofOfInfeasibility<4, 1>(random, i, {.exact = 1.0});
   }
 }
 

@@ -12,6 +12,7 @@ struct RandomQpOptions {
   double growth = 1.0;      // scale of A: beyond 1 the dynamics are unstable
   double equalities = 0.0;  // share of hard rows with lo = hi
   int max_horizon = 10;
+  double exact = 0.0;  // share of soft rows with σ > 0; of these every third has ρ = 0
 };
 
 // Hard rows hold for a trajectory drawn at random with inputs within [-1, 1]; soft rows hold where they may.
@@ -45,14 +46,19 @@ OcpQp<kNx, kNu> RandomQp(Random& random, const RandomQpOptions& options) {
         if (i < N) D = random.Filled<VectorU>(1.0);
       }
       const double value = soft ? random.Uniform(-3.0, 3.0) : C.dot(x) + D.dot(u);
-      const double rho = soft ? std::pow(10.0, random.Uniform(-1.0, 3.0)) : -1.0;
+      double rho = soft ? std::pow(10.0, random.Uniform(-1.0, 3.0)) : -1.0;
+      double sigma = 0.0;
+      if (soft && options.exact > 0.0 && random.Chance(options.exact)) {
+        sigma = std::pow(10.0, random.Uniform(-1.0, 3.0));
+        if (random.Chance(1.0 / 3.0)) rho = 0.0;
+      }
       if (!soft && random.Chance(options.equalities)) {
         (void)stage.AddRow(C, D, value, value);
         continue;
       }
       const bool has_lo = random.Chance(0.7), has_hi = !has_lo || random.Chance(0.5);
       (void)stage.AddRow(C, D, has_lo ? value - random.Uniform(0.01, 1.0) : -kNoBound,
-                         has_hi ? value + random.Uniform(0.01, 1.0) : kNoBound, rho);
+                         has_hi ? value + random.Uniform(0.01, 1.0) : kNoBound, rho, sigma);
     }
     if (i < N) x = (stage.A * x + stage.B * u + stage.c).eval();
   }
