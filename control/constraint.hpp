@@ -12,6 +12,8 @@ enum class ConstraintKind : std::uint8_t {
   kState,     // z_min ≤ z_i ≤ z_max; index of the state
   kRoad,      // road bounds at z_i
   kObstacle,  // obstacle at z_i; its id
+  kFriction,  // acceleration at z_i; 0 across, 1 across and along
+  kTrust,     // trust region at z_i; index of the state, or of the input behind the states
 };
 
 struct Constraint {

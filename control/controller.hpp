@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ struct ControllerInput {
   std::span<const State> reference;  // z_ref, steps 0..N: N + 1 states
   RoadBounds road;                   // relative to the reference
   std::span<const Obstacle> obstacles;
+  // Asked before an iteration that would improve the plan but is not needed: false ends them. None: there is time.
+  const std::function<bool()>* time_left = nullptr;
 };
 
 // The optimal trajectory of one step and what is to be known about how it came about.
@@ -35,6 +38,7 @@ struct Plan {
   double scheduling_error = 0.0;  // max_j |p_j − p̂_j| / e_j, realised against predicted in the previous step
   int active_trust_rows = 0;      // trust-region constraints at their bound
   double largest_slack = 0.0;     // in trust-region radii
+  ConstraintViolation relaxation;  // largest slack of another soft constraint; amount 0: none
 };
 
 class Controller {

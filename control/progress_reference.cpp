@@ -1,0 +1,54 @@
+#include "control/progress_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace control {
+namespace {
+
+// By so much the speed may differ from the profile before the reference comes towards it: noise of the measured speed
+// must not become an acceleration [m/s].
+constexpr double kSpeedTolerance = 0.5;
+// Of the comfortable deceleration: brakes that catch up with a profile.
+constexpr double kHarder = 1.5;
+
+}  // namespace
+
+double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> stops) const {
+  double speed = course_->At(s).speed;
+  for (const StopLine& stop : stops) {
+    const double distance = stop.s + stop.speed * t - s;
+    speed = std::min(speed, stop.speed + StoppingSpeed(distance, course_->limits().deceleration));
+  }
+  return speed;
+}
+
+void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
+                             std::span<Input> u, std::span<double> s) const {
+  const double wheelbase = vehicle_.l_f + vehicle_.l_r;
+  const double understeer = vehicle_.m / (2.0 * wheelbase) *
+                            (vehicle_.l_r / vehicle_.C_alpha_f - vehicle_.l_f / vehicle_.C_alpha_r);
+  const double slip = vehicle_.m * vehicle_.l_f / (2.0 * vehicle_.C_alpha_r * wheelbase);
+  const double up = course_->limits().acceleration * t_s_;
+  const double down = kHarder * course_->limits().deceleration * t_s_;
+
+  double place = s_0;
+  double speed = std::clamp(SpeedAt(place, 0.0, stops), std::max(upsilon - kSpeedTolerance, 0.0),
+                            std::max(upsilon, 0.0) + kSpeedTolerance);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const RoutePoint point = course_->At(place);
+    const double lever = vehicle_.l_r - slip * speed * speed;
+    z[i] << point.X, point.Y, speed, point.curvature * speed * lever, point.psi - point.curvature * lever,
+        point.curvature * speed;
+    s[i] = place;
+    if (i == u.size()) break;
+    const double t = static_cast<double>(i + 1) * t_s_;
+    const double next =
+        std::clamp(SpeedAt(place + speed * t_s_, t, stops), std::max(speed - down, 0.0), speed + up);
+    u[i] << point.curvature * (wheelbase + understeer * speed * speed), (next - speed) / t_s_;
+    place += 0.5 * (speed + next) * t_s_;
+    speed = next;
+  }
+}
+
+}  // namespace control

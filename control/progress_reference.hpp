@@ -1,0 +1,43 @@
+// The reference by progress: from the point of the course beside the vehicle on, as fast as the course's profile, what
+// may stand in the way, and a comfortable acceleration allow. A vehicle that is late or early is not dragged.
+//
+// Each state is that of steady cornering on the course (single-track model with linear tyres), so that on a bend no
+// error remains that is none:
+//
+//   ω = κ υ,   ν = κ υ (l_r − m l_f υ²/(2 C_αr L)),   ψ = ψ_course − ν/υ,   δ = κ (L + K υ²)
+//   L = l_f + l_r,   K = m/(2 L) (l_r/C_αf − l_f/C_αr)
+#pragma once
+
+#include <span>
+
+#include "control/course.hpp"
+#include "control/types.hpp"
+#include "control/vehicle_parameters.hpp"
+
+namespace control {
+
+// A place that must not be passed, moving along the course.
+struct StopLine {
+  double s = 0.0;      // now [m]
+  double speed = 0.0;  // ≥ 0 [m/s]
+};
+
+class ProgressReference {
+ public:
+  ProgressReference(const VehicleParameters& vehicle, const Course& course, double t_s)
+      : vehicle_(vehicle), course_(&course), t_s_(t_s) {}
+
+  // `z`: N + 1 states, `u`: N inputs, `s`: the N + 1 places on the course [m]. From the place s_0 and at about the speed
+  // `upsilon` [m/s].
+  void Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
+            std::span<Input> u, std::span<double> s) const;
+
+ private:
+  [[nodiscard]] double SpeedAt(double s, double t, std::span<const StopLine> stops) const;
+
+  VehicleParameters vehicle_;
+  const Course* course_;
+  double t_s_;
+};
+
+}  // namespace control
