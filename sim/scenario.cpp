@@ -22,7 +22,9 @@ constexpr Range<double> kHeading{-6.3, 6.3};     // [rad]
 constexpr Range<double> kSemiAxis{0.05, 10.0};   // what ObstacleObject holds [m]
 constexpr Range<double> kVelocity{-60.0, 60.0};  // what ObstacleObject holds [m/s]
 constexpr Range<double> kFactor{0.2, 5.0};
-constexpr Range<double> kTime{0.0, 1e5};  // [s]
+constexpr Range<double> kTime{0.0, 1e5};       // [s]
+constexpr Range<double> kOverhang{0.0, 20.0};  // [m]
+constexpr Range<double> kWidth{0.0, 10.0};     // [m]
 constexpr Range<int> kObjectId{0, 15};
 
 // End stops of the actuators: what a vehicle can do, wider than what a controller asks of it.
@@ -78,17 +80,19 @@ control::Obstacle ReadObstacle(const TomlTable& table, const control::Route& rou
   return obstacle;
 }
 
-std::vector<control::Obstacle> ReadObstacles(const TomlTable& file, const control::Route& route) {
-  std::vector<control::Obstacle> obstacles;
+void ReadObstacles(const TomlTable& file, Scenario& scenario) {
+  std::vector<control::Obstacle>& obstacles = scenario.obstacles;
   std::set<int> ids;
   for (const TomlTable& table : file.Tables("obstacle")) {
-    obstacles.push_back(ReadObstacle(table, route));
+    obstacles.push_back(ReadObstacle(table, scenario.route));
+    if (table.Has("appears_at")) {
+      scenario.appears_at[obstacles.back().id] = table.Number("appears_at", kTime, "s");
+    }
     if (!ids.insert(obstacles.back().id).second) throw table.Error("id", "is that of an obstacle before");
     if (obstacles.size() > static_cast<std::size_t>(kObjectId.max)) {  // all that ObstacleList can count
       throw table.Error("id", fmt::format("is one obstacle more than {}", kObjectId.max));
     }
   }
-  return obstacles;
 }
 
 void ReadVehicle(const TomlTable& table, Scenario& scenario) {
@@ -100,6 +104,9 @@ void ReadVehicle(const TomlTable& table, Scenario& scenario) {
   vehicle.C_alpha_r *= table.NumberOr("rear_stiffness_factor", 1.0, kFactor);
   scenario.plant.tyre = static_cast<Tyre>(table.ChoiceOr("tyre", 0, {"linear", "saturating"}));
   scenario.plant.mu = table.NumberOr("mu", scenario.plant.mu, {0.05, 2.0});
+  scenario.footprint = {.front = table.NumberOr("front", 0.0, kOverhang, "m"),
+                        .rear = table.NumberOr("rear", 0.0, kOverhang, "m"),
+                        .half_width = 0.5 * table.NumberOr("width", 0.0, kWidth, "m")};
 
   const auto actuator = [&table](const std::string& name, double min, double max, const char* rate_unit) {
     ActuatorParameters parameters{.min = min, .max = max};
@@ -186,7 +193,7 @@ Scenario LoadScenario(const std::filesystem::path& file) {
   if (table.Has("daemon_config")) scenario.daemon_config = table.Path("daemon_config");
   ReadVehicle(table.Table("vehicle"), scenario);
   ReadInitial(table.Table("initial"), scenario);
-  scenario.obstacles = ReadObstacles(table, scenario.route);
+  ReadObstacles(table, scenario);
   scenario.sensors = ReadSensors(table.Table("sensors"));
   scenario.driver = ReadDriver(table.Table("driver"));
   scenario.expect = ReadExpectations(table.Table("expect"));

@@ -23,6 +23,7 @@
 //   velocity_X = 0.0                  # in the map [m/s]
 //   velocity_Y = 0.0
 //   side = "left"                     # on which it is to be passed: left, right, unknown
+//   appears_at = 0.0                  # before that the vehicle does not perceive it, though it is there [s]
 //   [[obstacle]]
 //   id = 2
 //   s = 100.0                         # instead of X and Y: centre along the route [m]
@@ -30,7 +31,10 @@
 //   heading = 0.0                     # then relative to the route [rad]
 //   r_x = 1.0
 //   r_y = 0.5
-//   [vehicle]                         # deviations from control/vehicle_parameters.hpp
+//   [vehicle]                         # its rectangle on the road, and deviations from control/vehicle_parameters.hpp
+//   front = 0.0                       # from the centre of gravity to the front end [m]
+//   rear = 0.0                        # and to the rear end [m]
+//   width = 0.0                       # [m]; all three 0: a point
 //   mass_factor = 1.0                 # of mass and yaw inertia
 //   front_stiffness_factor = 1.0
 //   rear_stiffness_factor = 1.0
@@ -62,11 +66,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "control/footprint.hpp"
 #include "control/route.hpp"
 #include "control/types.hpp"
 #include "sim/actuator.hpp"
@@ -109,8 +115,10 @@ struct Scenario {
   control::Route route;
   control::RoadBounds road;
   std::vector<control::Obstacle> obstacles;  // as of the start
+  std::map<int, double> appears_at;  // of obstacles by id, since the start [s]; perceived at once if not here
 
   PlantParameters plant;
+  control::Footprint footprint;
   ActuatorParameters steering;
   ActuatorParameters acceleration;
   SensorParameters sensors;

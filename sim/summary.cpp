@@ -1,12 +1,14 @@
 #include "sim/summary.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
-#include "sim/ellipse_distance.hpp"
+#include "sim/footprint_distance.hpp"
 #include "sim/percentile.hpp"
 
 namespace sim {
@@ -37,7 +39,8 @@ class Judge {
   std::vector<std::string>* failed_;
 };
 
-nlohmann::json OrNull(const std::optional<double>& value) {
+template <typename T>
+nlohmann::json OrNull(const std::optional<T>& value) {
   return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
 }
 
@@ -60,13 +63,36 @@ void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
   last_misses_ = status.deadline_misses;
 }
 
-void Recorder::RecordPlace(const VirtualVehicle& vehicle, double lateral) {
+std::optional<double> Recorder::Clearance(const VirtualVehicle& vehicle) const {
   const control::State& z = vehicle.state();
+  std::optional<double> clearance;
   for (const control::Obstacle& obstacle : vehicle.ObstaclesNow()) {
-    KeepSmaller(summary_.min_clearance_m, EllipseDistance(obstacle, z[control::kX], z[control::kY]));
+    KeepSmaller(clearance, FootprintDistance(obstacle, scenario_->footprint, {z[control::kX], z[control::kY]},
+                                             z[control::kPsi]));
   }
-  KeepSmaller(summary_.min_road_margin_m,
-              std::min(scenario_->road.left - lateral, lateral - scenario_->road.right));
+  return clearance;
+}
+
+double Recorder::RoadMargin(const control::State& z) const {
+  const Eigen::Rotation2Dd turn(z[control::kPsi]);
+  double margin = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& corner : scenario_->footprint.Corners()) {
+    const Eigen::Vector2d place = z.segment<2>(control::kX) + turn * corner;
+    const double lateral = scenario_->route.Project(place, hint_).lateral;
+    margin = std::min({margin, scenario_->road.left - lateral, lateral - scenario_->road.right});
+  }
+  return margin;
+}
+
+void Recorder::RecordPlace(const VirtualVehicle& vehicle, double lateral) {
+  const std::int64_t step = summary_.steps - 1;
+  if (const auto clearance = Clearance(vehicle)) {
+    KeepSmaller(summary_.min_clearance_m, *clearance);
+    if (*clearance < 0.0 && !summary_.contact_step) summary_.contact_step = step;
+  }
+  const double margin = RoadMargin(vehicle.state());
+  KeepSmaller(summary_.min_road_margin_m, margin);
+  if (margin < 0.0 && !summary_.off_road_step) summary_.off_road_step = step;
   squared_lateral_ += lateral * lateral;
 }
 
@@ -104,6 +130,7 @@ void Recorder::Record(const VirtualVehicle& vehicle) {
 
 Summary Recorder::Result() const {
   Summary summary = summary_;
+  summary.standing = standing_cycles_ >= kStandstillCycles;
   if (summary.steps > 0) {
     summary.rms_lateral_error_m = std::sqrt(squared_lateral_ / static_cast<double>(summary.steps));
   }
@@ -134,6 +161,9 @@ std::string ToJson(const Summary& summary) {
       {"infeasible_steps", summary.infeasible_steps},
       {"min_clearance_m", OrNull(summary.min_clearance_m)},
       {"min_road_margin_m", OrNull(summary.min_road_margin_m)},
+      {"contact_step", OrNull(summary.contact_step)},
+      {"off_road_step", OrNull(summary.off_road_step)},
+      {"standing", summary.standing},
       {"rms_lateral_error_m", OrNull(summary.rms_lateral_error_m)},
       {"solve_time_us",
        {{"median", summary.solve_time_median_us},

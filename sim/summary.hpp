@@ -1,5 +1,6 @@
 // What came of a drive: measured each cycle on the vehicle's true state and on what the controller told, from
-// its engagement on, and held against the scenario's expectations.
+// its engagement on, and held against the scenario's expectations. Between two cycles nothing is measured: a point
+// passes an obstacle's edge by less than what is seen, a footprint as long as a car by millimetres.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +17,13 @@ struct Summary {
   bool completed = false;    // driven by the controller to the end of the route or of the scenario's duration
   std::int64_t steps = 0;    // cycles from engagement on
   int infeasible_steps = 0;  // of those, cycles in mode Active whose solver status was not Solved
-  // Signed distance of the centre of gravity to the nearest obstacle's edge, negative inside.
+  // Signed distance of the vehicle's footprint to the nearest obstacle's edge, negative in contact.
   std::optional<double> min_clearance_m;
-  // Of the centre of gravity to the nearer road edge, negative off the road.
+  // Of the footprint's outermost corner to the nearer road edge, negative off the road.
   std::optional<double> min_road_margin_m;
+  std::optional<std::int64_t> contact_step;   // the first at which the clearance was negative, from 0
+  std::optional<std::int64_t> off_road_step;  // the first at which the road margin was negative
+  bool standing = false;                      // the vehicle stood still at the end
   std::optional<double> rms_lateral_error_m;  // distance to the reference path
   int solve_time_median_us = 0;               // of the whole control step, as the controller told it
   int solve_time_p99_us = 0;
@@ -47,6 +51,8 @@ class Recorder {
  private:
   void RecordStatus(const VirtualVehicle& vehicle);
   void RecordPlace(const VirtualVehicle& vehicle, double lateral);
+  [[nodiscard]] std::optional<double> Clearance(const VirtualVehicle& vehicle) const;
+  [[nodiscard]] double RoadMargin(const control::State& z) const;
   [[nodiscard]] bool EndReached(const VirtualVehicle& vehicle) const;
 
   const Scenario* scenario_;

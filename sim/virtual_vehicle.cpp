@@ -31,7 +31,8 @@ VirtualVehicle::VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& 
       acceleration_actuator_(scenario.acceleration, 0.0),
       sensors_(scenario.sensors, scenario.seed),
       driver_(scenario.driver),
-      obstacles_(scenario.obstacles) {
+      obstacles_(scenario.obstacles),
+      appears_at_(scenario.appears_at) {
   frames_.reserve(5 + 3 * obstacles_.size());
 }
 
@@ -47,12 +48,20 @@ void VirtualVehicle::Emit(const dbc::Message& message, std::uint8_t counter, can
   frames_.push_back(frame);
 }
 
+bool VirtualVehicle::Perceives(const control::Obstacle& obstacle) const {
+  const auto appears = appears_at_.find(obstacle.id);
+  return appears == appears_at_.end() || time() >= appears->second - 1e-9;
+}
+
 void VirtualVehicle::EmitObstacles(can::Time now) {
   const auto emit = [&](const dbc::Message& message) {
     Emit(message, object_counter_, now);
     object_counter_ = dbc::NextCounter(object_counter_);
   };
+  std::uint8_t count = 0;
   for (const control::Obstacle& obstacle : ObstaclesNow()) {
+    if (!Perceives(obstacle)) continue;
+    ++count;
     const auto id = static_cast<std::uint8_t>(obstacle.id);
     emit(dbc::ObstaclePosition{.object_id = id, .X = obstacle.X, .Y = obstacle.Y});
     emit(dbc::ObstacleShape{.object_id = id,
@@ -63,7 +72,7 @@ void VirtualVehicle::EmitObstacles(can::Time now) {
     emit(dbc::ObstacleMotion{
         .object_id = id, .velocity_X = obstacle.velocity_X, .velocity_Y = obstacle.velocity_Y});
   }
-  Emit(dbc::ObstacleList{.count = static_cast<std::uint8_t>(obstacles_.size())}, list_counter_, now);
+  Emit(dbc::ObstacleList{.count = count}, list_counter_, now);
   list_counter_ = dbc::NextCounter(list_counter_);
 }
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,7 @@ class VirtualVehicle {
   VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& bus);
 
   // The frames of one cycle, stamped `now`, once per cycle: DriverRequest, three of ObstacleObject for each
-  // obstacle, ObstacleList, then the state set: VehiclePose, VehicleMotion, VehicleFeedback. They stay until
+  // obstacle that has appeared, ObstacleList, then the state set: VehiclePose, VehicleMotion, VehicleFeedback. They stay until
   // the next call. A message whose value is not finite is left out.
   [[nodiscard]] std::span<const can::Frame> Sense(can::Time now);
 
@@ -59,7 +60,7 @@ class VirtualVehicle {
   [[nodiscard]] control::Input actuators() const {
     return {steering_actuator_.value(), acceleration_actuator_.value()};
   }
-  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;
+  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;  // those not perceived, too
 
   // What the controller told last.
   [[nodiscard]] dbc::Mode mode() const { return status_.mode; }
@@ -84,6 +85,7 @@ class VirtualVehicle {
 
   void Emit(const dbc::Message& message, std::uint8_t counter, can::Time now);
   void EmitObstacles(can::Time now);
+  [[nodiscard]] bool Perceives(const control::Obstacle& obstacle) const;
   [[nodiscard]] std::uint8_t StateCounter() const;
   template <typename Command>
   void Take(const Command& command, double value, Channel& channel) const;
@@ -96,6 +98,7 @@ class VirtualVehicle {
   Sensors sensors_;
   Driver driver_;
   std::vector<control::Obstacle> obstacles_;  // as of the start
+  std::map<int, double> appears_at_;
 
   std::int64_t cycle_ = 0;
   std::uint8_t request_counter_ = 0;

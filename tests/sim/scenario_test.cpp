@@ -44,6 +44,7 @@ TEST_F(ScenarioTest, ExampleOfTheHeaderIsAScenario) {
   files_.Write("example.toml", example);
   const Scenario scenario = LoadScenario(files_.folder() / "example.toml");
   EXPECT_EQ(scenario.obstacles.size(), 2u);
+  EXPECT_EQ(scenario.appears_at.at(1), 0.0);
   EXPECT_EQ(scenario.expect.max_deadline_misses, 0);
   EXPECT_EQ(scenario.expect.max_rms_lateral_error_m, 0.5);
 }
@@ -94,6 +95,26 @@ TEST_F(ScenarioTest, DeviationsScaleTheVehicle) {
   EXPECT_EQ(scenario.steering.time_constant, 0.06);
   EXPECT_EQ(scenario.steering.rate, 0.7);
   EXPECT_EQ(scenario.acceleration.delay_cycles, 1);
+}
+
+TEST_F(ScenarioTest, VehicleIsAPointUnlessItsRectangleIsGiven) {
+  const Scenario point = files_.Load("");
+  for (const Eigen::Vector2d& corner : point.footprint.Corners())
+    EXPECT_EQ(corner, Eigen::Vector2d(0.0, 0.0));
+  const Scenario car = files_.Load("[vehicle]\nfront = 1.95\nrear = 2.3\nwidth = 1.8\n");
+  EXPECT_EQ(car.footprint.front, 1.95);
+  EXPECT_EQ(car.footprint.rear, 2.3);
+  EXPECT_EQ(car.footprint.half_width, 0.9);
+  EXPECT_THAT(ErrorOf("[vehicle]\nwidth = -1.8\n"), EndsWith("'vehicle.width' = -1.8 is outside [0, 10] m"));
+  EXPECT_THAT(ErrorOf("[vehicle]\nrear = 30\n"), EndsWith("'vehicle.rear' = 30 is outside [0, 20] m"));
+}
+
+TEST_F(ScenarioTest, ObstacleIsPerceivedFromTheStartUnlessItAppearsLater) {
+  const Scenario scenario =
+      files_.Load(kObstacle + "s = 50\nappears_at = 2.5\n[[obstacle]]\nid = 2\nr_x = 1\nr_y = 1\ns = 90\n");
+  EXPECT_EQ(scenario.appears_at, (std::map<int, double>{{1, 2.5}}));
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 50\nappears_at = -1\n"),
+              HasSubstr("key 'obstacle[0].appears_at' = -1 is outside [0, "));
 }
 
 TEST_F(ScenarioTest, ObstacleOutsideTheMapIsRefused) {

@@ -43,6 +43,7 @@ class SummaryTest : public testing::Test {
 TEST_F(SummaryTest, DriveToTheEndOfTheRouteIsCompleted) {
   const Summary summary = Drive("[expect]\nmin_road_margin_m = 2.0\nmax_rms_lateral_error_m = 0.5\n");
   EXPECT_TRUE(summary.completed);
+  EXPECT_FALSE(summary.standing);
   EXPECT_TRUE(summary.passed());
   EXPECT_EQ(summary.infeasible_steps, 0);
   EXPECT_NEAR(static_cast<double>(summary.steps) * kCycleTime, 160.0 / 12.0, 1.0);
@@ -76,6 +77,41 @@ TEST_F(SummaryTest, ClearanceIsTheDistanceToTheEdgeOfTheNearestObstacle) {
   EXPECT_THAT(summary.failed_expectations[0], HasSubstr("min_clearance_m = 1."));
 }
 
+const std::string kCar = "[vehicle]\nfront = 1.95\nrear = 2.3\nwidth = 1.8\n";
+
+TEST_F(SummaryTest, ClearanceAndRoadMarginAreThoseOfTheFootprint) {
+  const std::string drive =
+      "duration = 4.5\n[[obstacle]]\nid = 1\nX = 50\nY = 3\nr_x = 1\nr_y = 0.5\nappears_at = 100\n";
+  const Summary point = Drive(drive), car = Drive(drive + kCar);
+  EXPECT_NEAR(*point.min_clearance_m, 2.5, 0.02);
+  EXPECT_NEAR(*car.min_clearance_m, 2.5 - 0.9, 1e-3);
+  EXPECT_NEAR(*point.min_road_margin_m, 3.0, 1e-3);
+  EXPECT_NEAR(*car.min_road_margin_m, 3.0 - 0.9, 1e-3);
+  EXPECT_FALSE(car.contact_step);
+  EXPECT_FALSE(car.off_road_step);
+}
+
+TEST_F(SummaryTest, CornersLeaveTheRoadBeforeTheCentreDoes) {
+  const std::string at_the_edge = "duration = 1.0\n[initial]\nlateral = -2.4\nheading = -0.05\n";
+  EXPECT_GT(*Drive(at_the_edge).min_road_margin_m, 0.0);
+  const Summary car = Drive(at_the_edge + kCar);
+  EXPECT_LT(*car.min_road_margin_m, -0.35);
+  EXPECT_EQ(car.off_road_step, 0);
+}
+
+TEST_F(SummaryTest, ContactIsToldWithItsFirstStep) {
+  // The obstacle's near edge is 38.9 m ahead of the centre of gravity, 36.95 m ahead of the front end.
+  const std::string drive = "duration = 6.0\n[[obstacle]]\nid = 1\nX = 49.9\nY = 0\nr_x = 1\nr_y = 1\n";
+  const Summary point = Drive(drive), car = Drive(drive + kCar);
+  ASSERT_TRUE(point.contact_step && car.contact_step);
+  // 1.95 m at 12 m/s are 3.25 cycles.
+  EXPECT_NEAR(static_cast<double>(*point.contact_step - *car.contact_step), 3.25, 1.0);
+  // Engagement takes some cycles.
+  EXPECT_NEAR(static_cast<double>(*car.contact_step), 36.95 / 0.6, 8.0);
+  EXPECT_LT(*car.min_clearance_m, -0.5);
+  EXPECT_FALSE(car.off_road_step);
+}
+
 TEST_F(SummaryTest, DriveThatTheDriverEndedIsNotCompleted) {
   const Summary summary = Drive("duration = 6.0\n[driver]\ndisengage_at = 3.0\n");
   EXPECT_FALSE(summary.completed);
@@ -85,6 +121,7 @@ TEST_F(SummaryTest, DriveThatTheDriverEndedIsNotCompleted) {
 TEST_F(SummaryTest, DriveThatComesToRestEnds) {
   const Summary summary = Drive("[driver]\nbrake_at = 2.0\n[expect]\ncompleted = false\n");
   EXPECT_FALSE(summary.completed);
+  EXPECT_TRUE(summary.standing);
   EXPECT_TRUE(summary.passed());
 }
 
@@ -133,9 +170,10 @@ TEST(SummaryJson, HasTheAgreedKeys) {
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(ToJson(summary));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("completed", "steps", "infeasible_steps", "min_clearance_m",
-                                "min_road_margin_m", "rms_lateral_error_m", "solve_time_us",
-                                "deadline_misses", "passed", "failed_expectations"));
+  EXPECT_THAT(keys,
+              ElementsAre("completed", "steps", "infeasible_steps", "min_clearance_m", "min_road_margin_m",
+                          "contact_step", "off_road_step", "standing", "rms_lateral_error_m", "solve_time_us",
+                          "deadline_misses", "passed", "failed_expectations"));
   EXPECT_TRUE(json["min_clearance_m"].is_null());
   EXPECT_EQ(json["min_road_margin_m"], 1.5);
   EXPECT_EQ(json["solve_time_us"].size(), 3u);

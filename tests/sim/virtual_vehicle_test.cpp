@@ -88,6 +88,33 @@ TEST_F(VirtualVehicleTest, TellsStateAndObstaclesAsTheyAre) {
   EXPECT_EQ(positions, 2);
 }
 
+TEST_F(VirtualVehicleTest, ObstacleThatAppearsLaterIsThereButNotPerceivedBefore) {
+  const Scenario scenario = files_.Load(
+      "[[obstacle]]\nid = 1\ns = 50\nr_x = 1\nr_y = 1\nvelocity_X = 2\nappears_at = 0.1\n"
+      "[[obstacle]]\nid = 7\ns = 90\nr_x = 1\nr_y = 1\n");
+  VirtualVehicle vehicle(scenario, bus_);
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    const bool appeared = cycle >= 2;  // 0.1 s
+    std::vector<int> ids;
+    int count = -1;
+    for (const can::Frame& frame : vehicle.Sense({})) {
+      const dbc::Message message = bus_.Decode(frame.id, frame.Payload()).value();
+      if (const auto* position = std::get_if<dbc::ObstaclePosition>(&message)) {
+        ids.push_back(position->object_id);
+        if (position->object_id == 1) {
+          EXPECT_NEAR(position->X, 60.0 + 0.1 * cycle, 1e-3);
+        }
+      } else if (const auto* list = std::get_if<dbc::ObstacleList>(&message)) {
+        count = list->count;
+      }
+    }
+    EXPECT_EQ(ids, appeared ? std::vector<int>({1, 7}) : std::vector<int>({7})) << cycle;
+    EXPECT_EQ(count, appeared ? 2 : 1) << cycle;
+    EXPECT_EQ(vehicle.ObstaclesNow().size(), 2u);
+    vehicle.Advance();
+  }
+}
+
 TEST_F(VirtualVehicleTest, BeforeEngagementRollsOnAsItStarted) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
   for (int i = 0; i < 40; ++i) vehicle.Advance();
