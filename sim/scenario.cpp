@@ -27,11 +27,6 @@ constexpr Range<double> kOverhang{0.0, 20.0};  // [m]
 constexpr Range<double> kWidth{0.0, 10.0};     // [m]
 constexpr Range<int> kObjectId{0, 15};
 
-// End stops of the actuators: what a vehicle can do, wider than what a controller asks of it.
-constexpr double kSteeringStop = 0.65;          // [rad]
-constexpr double kHardestBraking = -9.81;       // [m/s²]
-constexpr double kStrongestAcceleration = 4.0;  // [m/s²]
-
 const std::array<std::string_view, 2> kByMap{"X", "Y"};
 
 // In the order of control::PassingSide.

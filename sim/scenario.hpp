@@ -90,6 +90,11 @@ inline constexpr double kMapMaxY = 800.0;
 
 inline constexpr double kCycleTime = 0.05;  // t_s (paper, tab:VarPar) [s]
 
+// End stops of the actuators: what a vehicle can do, wider than what a controller asks of it.
+inline constexpr double kSteeringStop = 0.65;          // [rad]
+inline constexpr double kHardestBraking = -9.81;       // [m/s²]
+inline constexpr double kStrongestAcceleration = 4.0;  // [m/s²]
+
 struct Expectations {
   bool completed = true;
   std::optional<int> max_infeasible_steps;
