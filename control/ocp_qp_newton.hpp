@@ -5,10 +5,12 @@
 // the third in soft rows with σ > 0, and a soft row's slack has the stationarity
 //   ρ ε + σ − λ_lo − λ_hi − λ_ε = 0.
 // Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a curvature on C dx + D du,
-//   w = w_lo + w_hi − (w_lo − w_hi)² / (ρ + w_lo + w_hi + w_ε),   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi, w_ε likewise
-// (the last term in soft rows only; w_ε = 0 where σ = 0),
-// and a gradient term. δ regularises the step alone, dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤
-// 1/δ and so the digits of P, and vanishes with dλ. What remains is
+//   w = w_lo + w_hi − (w_lo − w_hi)² / s,   s = ρ + w_lo + w_hi + w_ε,
+//   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi and w_ε likewise
+// (the quotient in soft rows only, where w is computed as (4 w_lo w_hi + (ρ + w_ε) (w_lo + w_hi)) / s, which
+// cancels no digits; w_ε = 0 where σ = 0), and a gradient term. δ regularises the step alone,
+// dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤ 1/δ and so the digits of P, and vanishes with dλ.
+// What remains is
 //   min ½ dxᵀ(Q + Σ w CCᵀ)dx + duᵀ(Σ w DCᵀ)dx + ½ duᵀ(R + Σ w DDᵀ)du + g_xᵀdx + g_uᵀdu,  dx' = A dx + B du,
 // which the Riccati recursion solves. It is written with the closed loop A_K = A + B K and C_K = C + KᵀD, as
 // a sum of positive semidefinite terms: the usual difference of large terms loses all digits where w → ∞ in a
@@ -45,9 +47,11 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
       side(at.hi);
       side(at.slack);
       at.w = at.lo.w + at.hi.w;
-      const double s = stage.rows[j].rho + at.w + at.slack.w;
-      at.inverse_s = stage.rows[j].soft() && s > 0.0 ? 1.0 / s : 0.0;
-      at.w -= (at.lo.w - at.hi.w) * (at.lo.w - at.hi.w) * at.inverse_s;
+      if (!stage.rows[j].soft()) continue;
+      const double slack_w = stage.rows[j].rho + at.slack.w;
+      const double s = slack_w + at.w;
+      at.inverse_s = s > 0.0 ? 1.0 / s : 0.0;
+      at.w = (4.0 * at.lo.w * at.hi.w + slack_w * at.w) * at.inverse_s;
     }
 
     MatrixXX& P = work.P;
@@ -70,10 +74,8 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
           H_uu.noalias() += wD * row.D.transpose();
         }
       }
-      const Eigen::LLT<MatrixUU> llt(H_uu);
-      if (llt.info() != Eigen::Success) return false;
-      work.H_uu_inverse = llt.solve(MatrixUU::Identity());
-      work.K.noalias() = -work.H_uu_inverse * H_ux;
+      if (work.H_uu.compute(H_uu).info() != Eigen::Success) return false;
+      work.K = -work.H_uu.solve(H_ux);
       work.A_K = stage.A;
       work.A_K.noalias() += stage.B * work.K;
       const MatrixXX PA_K = PA + PB * work.K;
@@ -133,7 +135,7 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
         h_u += gradient * row.D;
       }
     }
-    if (i < N) work.k.noalias() = -work.H_uu_inverse * h_u;
+    if (i < N) work.k = -work.H_uu.solve(h_u);
   }
   work_[0].dx.setZero();
   work_[0].dpi.setZero();

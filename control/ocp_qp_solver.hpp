@@ -12,6 +12,7 @@
 // Instantiated for <8, 2> (the controllers); include ocp_qp_solver_impl.hpp for other sizes.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -94,7 +95,7 @@ class OcpQpSolver {
     VectorU base_u, u, du, r_u, k;
     MatrixXX P, A_K;
     MatrixUX K;
-    MatrixUU H_uu_inverse;
+    Eigen::LLT<MatrixUU> H_uu;  // solved with, not inverted: beside a w of 1e10 an inverse has few digits
     std::array<RowWork, kMaxRows> rows;
   };
 
