@@ -9,8 +9,9 @@
 // A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 it is convex.
 //
 // With σ = 0 a soft row gives way a little as soon as holding it costs anything. With σ > 0 the penalty is
-// exact: an optimum with these rows hard, whose multipliers λ_lo + λ_hi there are each at most σ, is the optimum
-// with them soft, too. So σ above them violates no row that can hold. In a violated row λ_lo + λ_hi = σ + ρ ε.
+// exact: an optimum with these rows hard whose multipliers λ_lo + λ_hi are each at most σ is the optimum with
+// them soft, too. So no row that can hold is violated if σ is above them. In a violated row
+// λ_lo + λ_hi = σ + ρ ε.
 // Source: R. Fletcher, Practical Methods of Optimization, 2nd edition (1987), chapter 14 (exact penalty).
 #pragma once
 

@@ -65,6 +65,7 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
     return result;
   }
   if (guess == nullptr || !StartFrom(qp, *guess)) StartCold(qp);
+  double infeasibility = 1.0;  // what is left of the start's residuals of the linear equations
   for (;; ++result.iterations) {
     result.kkt_residual = Residuals(qp);
     if (!std::isfinite(result.kkt_residual)) return result;
@@ -91,7 +92,17 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
     // A μ far below the tolerance would cost digits (t of the size of round-off) and gain nothing.
     const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * settings_.tolerance);
     Step(qp, target, true);
-    Move(qp, StepLength(qp, std::max(0.995, 1.0 - mu_)));
+    const double keep = std::max(0.995, 1.0 - mu_);
+    double alpha = StepLength(qp, keep);
+    // The second-order term can lead round in a cycle for ever (C. Cartis, Some disadvantages of a
+    // Mehrotra-type primal-dual corrector interior point algorithm for linear programming, 2009). A cycle
+    // raises μ somewhere, which a step without that term does not once the linear equations hold.
+    if (infeasibility <= 1e-2 && ComplementarityAfter(qp, alpha) > mu_) {
+      Step(qp, 0.3 * mu_, false);
+      alpha = StepLength(qp, keep);
+    }
+    infeasibility *= 1.0 - alpha;
+    Move(qp, alpha);
   }
   WriteSolution(qp);
   return result;

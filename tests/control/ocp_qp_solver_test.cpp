@@ -1,6 +1,7 @@
 #include "control/ocp_qp_solver.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -175,6 +176,113 @@ TEST(OcpQpSolver, SoftRowGivesWayByItsWeight) {
   }
 }
 
+// Of x ≤ hi the multiplier is 1 − 2x: 0.6 where x = 0.2 is held. What σ does not pay for, x gives way:
+// min ½(x−1)² + ½x² + ½ρ(x−hi)² + σ(x−hi).
+TEST(OcpQpSolver, ExactPenaltyHoldsARowWhoseMultiplierIsBelowIt) {
+  for (const double rho : {0.0, 1e-3, 1.0, 1e3}) {
+    for (const double sigma : {1e-3, 0.1, 0.5, 0.59, 0.61, 1.0, 10.0, 1e4}) {
+      OcpQp<1, 1> qp = Scalar(0.0);
+      ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, 0.2, rho, sigma));
+      OcpQpSolver<1, 1> solver(1);
+      ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho << " " << sigma;
+      const double x = std::max(0.2, (1.0 + 0.2 * rho - sigma) / (2.0 + rho));
+      EXPECT_NEAR(solver.solution().stages[1].x[0], x, 1e-7) << rho << " " << sigma;
+      EXPECT_NEAR(solver.solution().stages[1].slack[0], x - 0.2, 1e-6) << rho << " " << sigma;
+      EXPECT_NEAR(solver.solution().stages[1].lambda[0].hi, 1.0 - 2.0 * x, 1e-6) << rho << " " << sigma;
+      EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-7) << rho << " " << sigma;
+    }
+  }
+}
+
+TEST(OcpQpSolver, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
+  testing::Random random(8);
+  int active = 0;
+  for (int i = 0; i < 100; ++i) {
+    Qp qp = testing::RandomQp<8, 2>(random, {});
+    for (auto& stage : qp.stages) {  // the hard rows alone: they are feasible by construction
+      const auto end = std::remove_if(stage.rows.begin(), stage.rows.begin() + stage.row_count,
+                                      [](const auto& row) { return row.soft(); });
+      stage.row_count = static_cast<int>(end - stage.rows.begin());
+    }
+    Solver hard(qp.horizon()), exact(qp.horizon());
+    ASSERT_EQ(hard.Solve(qp).status, SolverStatus::kSolved) << i;
+    Qp soft = qp;
+    for (std::size_t k = 0; k < qp.stages.size(); ++k) {
+      for (std::size_t j = 0; j < static_cast<std::size_t>(qp.stages[k].row_count); ++j) {
+        const RowMultiplier& lambda = hard.solution().stages[k].lambda[j];
+        if (lambda.lo + lambda.hi > 0.1) ++active;
+        soft.stages[k].rows[j].rho = 0.0;
+        soft.stages[k].rows[j].sigma = 1.2 * (lambda.lo + lambda.hi) + 0.5;
+      }
+    }
+    ASSERT_EQ(exact.Solve(soft).status, SolverStatus::kSolved) << i;
+    EXPECT_LT(EvaluateKkt(soft, exact.solution()).Max(), 1e-6) << i;
+    for (std::size_t k = 0; k < qp.stages.size(); ++k) {
+      const auto& at = exact.solution().stages[k];
+      EXPECT_LT((at.u - hard.solution().stages[k].u).cwiseAbs().maxCoeff(), 1e-5) << i;
+      for (std::size_t j = 0; j < static_cast<std::size_t>(qp.stages[k].row_count); ++j) {
+        EXPECT_NEAR(at.slack[j], 0.0, 1e-7) << i;
+      }
+    }
+  }
+  EXPECT_GT(active, 200);
+}
+
+// x = u reaches 1 at most: 1.5 ≤ x is violated by a half whatever it costs, −0.7 is not.
+TEST(OcpQpSolver, ExactPenaltyOfARowThatCannotHoldLeavesTheLeastSlack) {
+  for (const double rho : {0.0, 1.0}) {
+    for (const double sigma : {10.0, 1e3, 1e5}) {
+      OcpQp<1, 1> qp = Scalar(0.0);
+      ASSERT_TRUE(qp.stages[0].AddInputBound(0, -1.0, 1.0));
+      ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.5, kNoBound, rho, sigma));
+      ASSERT_TRUE(qp.stages[1].AddStateBound(0, -0.7, kNoBound, rho, sigma));
+      OcpQpSolver<1, 1> solver(1);
+      ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho << " " << sigma;
+      const auto& at = solver.solution().stages[1];
+      EXPECT_NEAR(at.slack[0], 0.5, 1e-7) << rho << " " << sigma;
+      EXPECT_NEAR(at.slack[1], 0.0, 1e-7) << rho << " " << sigma;
+      EXPECT_NEAR(at.lambda[0].lo, sigma + 0.5 * rho, 1e-6) << rho << " " << sigma;
+    }
+  }
+}
+
+TEST(OcpQpSolver, OptimumInsideExactRowsTakesNoIteration) {
+  OcpQp<1, 1> qp = Scalar(0.0);
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, 0.4, 0.6, 1.0, 5.0));
+  OcpQpSolver<1, 1> solver(1);
+  const QpResult result = solver.Solve(qp);
+  EXPECT_EQ(result.status, SolverStatus::kSolved);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_EQ(solver.solution().stages[1].slack[0], 0.0);
+  EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-12);
+}
+
+TEST(OcpQpSolver, GuessLeadsToTheSameOptimumOfExactPenaltiesInFewerIterations) {
+  testing::Random random(9);
+  int cold = 0, warm = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Qp qp = testing::RandomQp<8, 2>(random, {.exact = 1.0});
+    Solver solver(qp.horizon());
+    const QpResult from_nothing = solver.Solve(qp);
+    ASSERT_EQ(from_nothing.status, SolverStatus::kSolved) << i;
+    cold += from_nothing.iterations;
+    const Point optimum = solver.solution();
+    const QpResult from_optimum = solver.Solve(qp, &optimum);
+    ASSERT_EQ(from_optimum.status, SolverStatus::kSolved) << i;
+    warm += from_optimum.iterations;
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << i;
+    EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-5) << i;
+    Point beside = optimum;  // a slack and a multiplier that belong to another problem
+    for (auto& stage : beside.stages) {
+      stage.slack.fill(0.3);
+      stage.lambda.fill({.lo = 1e3, .hi = 1e3});
+    }
+    ASSERT_EQ(solver.Solve(qp, &beside).status, SolverStatus::kSolved) << i;
+    EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-5) << i;
+  }
+  EXPECT_LT(warm, cold / 2);
+}
+
 TEST(OcpQpSolver, OneSidedRowHoldsOnItsSideAlone) {
   OcpQpSolver<1, 1> solver(1);
   OcpQp<1, 1> qp = Scalar(0.0);
@@ -227,6 +335,11 @@ TEST(OcpQpSolver, ContradictionIsProven) {
   ASSERT_TRUE(
       qp.stages[0].AddRow(Eigen::Matrix<double, 1, 1>(0.0), Eigen::Matrix<double, 1, 1>(0.0), 1.0, kNoBound));
   expect_proof(qp, "0 ≥ 1");
+  qp = Scalar(0.0);
+  ASSERT_TRUE(qp.stages[0].AddInputBound(0, -1.0, 1.0));
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.01, kNoBound));
+  ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, -5.0, 1.0, 100.0));
+  expect_proof(qp, "out of the input's reach, beside an exact penalty");
 }
 
 TEST(OcpQpSolver, ContradictionBetweenUnboundedInputsIsNeverSolved) {
@@ -306,6 +419,9 @@ TEST(OcpQpSolver, AnyNumberThatIsNotFiniteIsAFailure) {
         expect_failure(stage.rows[j].hi, -kInfinity, "hi", i);
         expect_failure(stage.rows[j].rho, kNan, "rho", i);
         expect_failure(stage.rows[j].rho, kInfinity, "rho", i);
+        expect_failure(stage.rows[j].sigma, kNan, "sigma", i);
+        expect_failure(stage.rows[j].sigma, kInfinity, "sigma", i);
+        expect_failure(stage.rows[j].sigma, -1.0, "sigma", i);
       }
     }
   }

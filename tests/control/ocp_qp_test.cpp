@@ -83,6 +83,32 @@ TEST(EvaluateKkt, EachDefectRaisesItsOwnMember) {
   EXPECT_NEAR(EvaluateKkt(qp, point).complementarity, 0.06, 1e-12);
 }
 
+// The same with σ = 0.1 and ρ = 0: u = −½, ε = 0.3, λ_hi = σ, and λ_ε = ρ ε + σ − λ_hi = 0.
+TEST(EvaluateKkt, ExactPenaltyImpliesTheMultiplierOfTheSlack) {
+  Qp qp = SmallQp();
+  qp.stages[1].rows[0].rho = 0.0;
+  qp.stages[1].rows[0].sigma = 0.1;
+  Point optimum = SmallOptimum();
+  optimum.stages[1].lambda[0].hi = 0.1;
+  optimum.stages[1].pi[0] = 0.6;
+  optimum.stages[0].lambda[0].lo = 0.1;
+  EXPECT_LT(EvaluateKkt(qp, optimum).Max(), 1e-15);
+  EXPECT_NEAR(EvaluateCost(qp, optimum), 0.5 * 0.25 + 0.5 * 0.25 + 0.03, 1e-15);
+
+  Point point = optimum;
+  point.stages[1].lambda[0].hi = 0.15;  // λ_ε = −0.05
+  EXPECT_NEAR(EvaluateKkt(qp, point).multipliers, 0.05, 1e-12);
+
+  point = optimum;
+  point.stages[1].lambda[0].hi = 0.05;  // λ_ε = 0.05, ε = 0.3
+  EXPECT_NEAR(EvaluateKkt(qp, point).complementarity, 0.015, 1e-12);
+
+  qp.stages[1].rows[0].hi = 1.0;  // distance 0.5, so that a negative slack breaks ε ≥ 0 alone
+  point = optimum;
+  point.stages[1].slack[0] = -0.2;
+  EXPECT_NEAR(EvaluateKkt(qp, point).rows, 0.2, 1e-12);
+}
+
 TEST(EvaluateKkt, SlackOfAHardRowCountsForNothing) {
   Point point = SmallOptimum();
   point.stages[0].u[0] -= 0.02;
