@@ -13,84 +13,42 @@ LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const Course& cours
                            const LpvAffineSettings& settings)
     : settings_(settings),
       model_(BlendedModel(vehicle), settings.t_s),
-      course_(&course),
-      progress_(vehicle, course, settings.t_s),
-      passing_({.footprint = settings.footprint,
-                .margin = settings.obstacle_margin,
-                .road_margin = settings.road_margin,
-                .grip = Grip(settings)},
-               course),
+      task_(vehicle, course, settings),
       qp_(settings.horizon),
       solver_(settings.horizon, settings.qp),
       constraints_(Index(settings.horizon) + 1) {
   const std::size_t N = Index(settings.horizon);
   plan_.z.assign(N + 1, State::Zero());
   plan_.u.assign(N, Input::Zero());
-  z_ref_ = z_hat_ = plan_.z;
-  u_ref_ = u_hat_ = plan_.u;
-  s_ref_.assign(N + 1, 0.0);
-  beside_.resize(N + 1);
-  stops_.reserve(PassingPlanner::kMostObstacles);
+  z_hat_ = plan_.z;
+  u_hat_ = plan_.u;
 }
 
 void LpvAffineMpc::Reset() {
   has_prediction_ = false;
-  placed_ = false;
-  holding_ = false;
   trust_scale_ = 1.0;
-  passing_.Reset();
+  task_.Reset();
 }
 
 const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
-  Place(input.z);
-  DecidePassing(input.obstacles);
-  progress_.Fill(s_, z_[kUpsilon], stops_, z_ref_, u_ref_, s_ref_);
+  task_.Begin(input.z, input.obstacles);
   CompareScheduling();
   plan_.iterations = 0;
   plan_.active_trust_rows = 0;
   plan_.largest_slack = 0.0;
   plan_.relaxation = {};
-  if (!Hold(input.u_previous)) Solve(input);
+  if (task_.waiting()) {
+    Hold(input.u_previous);
+  } else {
+    Solve(input);
+  }
   return plan_;
 }
 
-void LpvAffineMpc::Place(const State& z) {
-  const Eigen::Vector2d position(z[kX], z[kY]);
-  const RouteProjection place = placed_ ? course_->Project(position, s_) : course_->Find(position, z[kPsi]);
-  placed_ = true;
-  s_ = place.s;
-  lateral_ = place.lateral;
-  const double psi = course_->At(s_).psi;
-  z_ = z;
-  z_[kPsi] = psi + WrapAngle(z[kPsi] - psi);
-}
-
-void LpvAffineMpc::DecidePassing(std::span<const Obstacle> obstacles) {
-  decisions_ = passing_.Decide(obstacles, s_, lateral_, z_[kUpsilon]);
-  stops_.clear();
-  first_stop_.reset();
-  double first_s = 0.0;
-  for (std::size_t k = 0; k < decisions_.size(); ++k) {
-    const PassingDecision& decision = decisions_[k];
-    if (decision.passage != Passage::kStop) continue;
-    const double before = decision.half_length + settings_.footprint.front + settings_.stop_gap;
-    stops_.push_back({.s = decision.s - before, .speed = std::max(decision.speed, 0.0)});
-    if (!first_stop_ || stops_.back().s < first_s) {
-      first_stop_ = k;
-      first_s = stops_.back().s;
-    }
-  }
-}
-
-// At standstill, with nowhere to go to, the brake holds. It takes more than noise to go on.
-bool LpvAffineMpc::Hold(const Input& u_previous) {
-  constexpr double kStandstill = 0.15;  // [m/s]
-  constexpr double kWay = 0.3;          // [m]
-  constexpr double kBrake = -1.0;       // [m/s²]
-  const bool nowhere = s_ref_.back() - s_ref_.front() < kWay;
-  holding_ = nowhere && z_[kUpsilon] < (holding_ ? 2.0 : 1.0) * kStandstill;
-  if (!holding_) return false;
-  State still = z_;
+// The brake holds, the wheels stay as they are.
+void LpvAffineMpc::Hold(const Input& u_previous) {
+  constexpr double kBrake = -1.0;  // [m/s²]
+  State still = task_.z();
   still[kUpsilon] = still[kNu] = still[kOmega] = 0.0;
   std::ranges::fill(plan_.z, still);
   Input u = u_previous;
@@ -101,7 +59,6 @@ bool LpvAffineMpc::Hold(const Input& u_previous) {
   }
   plan_.status = SolverStatus::kSolved;
   has_prediction_ = false;
-  return true;
 }
 
 // Scheduling realised against predicted. Where predictions come true the trust region may be wide; where they do not,
@@ -113,7 +70,7 @@ void LpvAffineMpc::CompareScheduling() {
   plan_.scheduling_error = 0.0;
   if (!has_prediction_) return;
   for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
-    const double error = std::abs(z_[kScheduledStates[j]] - z_hat_[0][kScheduledStates[j]]);
+    const double error = std::abs(task_.z()[kScheduledStates[j]] - z_hat_[0][kScheduledStates[j]]);
     const double radius = settings_.trust_radius[static_cast<Eigen::Index>(j)];
     plan_.scheduling_error = std::max(plan_.scheduling_error, error / radius);
   }
@@ -126,10 +83,10 @@ void LpvAffineMpc::CompareScheduling() {
 // ẑ is where the shifted plan leads from the measured state. Without a plan it is the reference, which is near.
 void LpvAffineMpc::Predict() {
   if (!has_prediction_) {
-    std::ranges::copy(z_ref_, z_hat_.begin());
-    std::ranges::copy(u_ref_, u_hat_.begin());
+    std::ranges::copy(task_.reference(), z_hat_.begin());
+    std::ranges::copy(task_.reference_input(), u_hat_.begin());
   }
-  z_hat_[0] = z_;
+  z_hat_[0] = task_.z();
   if (!has_prediction_) return;
   for (std::size_t i = 0; i < u_hat_.size(); ++i) z_hat_[i + 1] = model_.Step(z_hat_[i], u_hat_[i]);
 }
@@ -141,9 +98,8 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   Predict();
   for (int k = 0; k < most; ++k) {
     if (k >= least && input.time_left != nullptr && !(*input.time_left)()) break;
-    BuildQp(input.u_previous, input.obstacles);
     // An obstacle that finds no room in the problem must not be ignored.
-    const QpResult result = fits_ ? solver_.Solve(qp_) : QpResult{.status = SolverStatus::kNumericalFailure};
+    const QpResult result = BuildQp(input.u_previous) ? solver_.Solve(qp_) : QpResult{};
     plan_.iterations += result.iterations;
     if (result.status != SolverStatus::kSolved) {
       if (k == 0) plan_.status = result.status;
@@ -160,22 +116,23 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   std::shift_left(u_hat_.begin(), u_hat_.end(), 1);
 }
 
-void LpvAffineMpc::BuildQp(const Input& u_previous, std::span<const Obstacle> obstacles) {
+bool LpvAffineMpc::BuildQp(const Input& u_previous) {
   const int N = settings_.horizon;
-  fits_ = obstacles.size() <= PassingPlanner::kMostObstacles;
-  double s = s_;
-  for (std::size_t i = 0; i < z_hat_.size(); ++i) {
-    s = course_->Project({z_hat_[i][kX], z_hat_[i][kY]}, s).s;
-    beside_[i] = course_->At(s);
-  }
-  const auto u_ref_before = [&](int i) { return u_ref_[Index(std::max(i - 1, 0))]; };
-  qp_.x0 << z_ - z_ref_[0], u_previous - u_ref_before(0);
+  const auto z_ref = task_.reference();
+  const auto u_ref_before = [&](int i) { return task_.reference_input()[Index(std::max(i - 1, 0))]; };
+  bool fits = task_.Bound(z_hat_);
+  qp_.x0 << task_.z() - z_ref[0], u_previous - u_ref_before(0);
   for (int i = 0; i <= N; ++i) {
     auto& stage = qp_.stages[Index(i)];
     const double weight = i < N ? 2.0 : 2.0 * settings_.terminal;
     stage.Q << weight * settings_.Q, 2.0 * settings_.R;
     stage.ClearRows();
-    BuildRows(u_previous, obstacles, i);
+    fits &= AddInputRows(u_previous, i);
+    if (i > 0) {  // the measured state cannot be changed
+      fits &= AddFrictionRows(i);
+      fits &= AddBodyRows(i);
+      if (settings_.trust_region && has_prediction_) fits &= AddTrustRegion(i);
+    }
     if (i == N) break;
     const AffineModel model = model_.Expand(z_hat_[Index(i)], u_hat_[Index(i)]);
     stage.A.setIdentity();
@@ -184,10 +141,11 @@ void LpvAffineMpc::BuildQp(const Input& u_previous, std::span<const Obstacle> ob
     stage.B.topRows<kStates>() = model.linear.B;
     stage.B.bottomRows<kInputs>().setIdentity();
     stage.c.head<kStates>() =
-        model.linear.A * z_ref_[Index(i)] + model.linear.B * u_ref_before(i) + model.c - z_ref_[Index(i) + 1];
+        model.linear.A * z_ref[Index(i)] + model.linear.B * u_ref_before(i) + model.c - z_ref[Index(i) + 1];
     stage.c.tail<kInputs>() = u_ref_before(i) - u_ref_before(i + 1);
     stage.R = 2.0 * settings_.R_rate;
   }
+  return fits;
 }
 
 // Returns the largest change of a scheduling variable, in radii.
@@ -205,10 +163,10 @@ double LpvAffineMpc::ReadPlan() {
     if (deviation >= trust_scale_ * (1.0 - 1e-6)) ++plan_.active_trust_rows;
     plan_.largest_slack = std::max(plan_.largest_slack, deviation / trust_scale_ - 1.0);
   };
-  plan_.z[0] = z_;
+  plan_.z[0] = task_.z();
   for (std::size_t i = 1; i < plan_.z.size(); ++i) {
-    plan_.z[i] = z_ref_[i] + stages[i].x.head<kStates>();
-    plan_.u[i - 1] = u_ref_[i - 1] + stages[i].x.tail<kInputs>();
+    plan_.z[i] = task_.reference()[i] + stages[i].x.head<kStates>();
+    plan_.u[i - 1] = task_.reference_input()[i - 1] + stages[i].x.tail<kInputs>();
     measure(plan_.u[i - 1][kDelta], u_hat_[i - 1][kDelta], kScheduledDelta);
     for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
       measure(plan_.z[i][kScheduledStates[j]], z_hat_[i][kScheduledStates[j]], j);

@@ -1,12 +1,9 @@
 // What the parts of LpvAffineMpc have in common.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
-#include "control/lpv_affine_mpc.hpp"
 #include "control/types.hpp"
 
 namespace control::lpv_affine {
@@ -20,11 +17,6 @@ inline constexpr std::size_t kScheduledDelta = kScheduledStates.size();
 
 inline std::size_t Index(int i) {
   return static_cast<std::size_t>(i);
-}
-
-// Radius of the friction circle [m/s²].
-inline double Grip(const LpvAffineSettings& settings) {
-  return settings.friction_share * settings.mu * kGravity;
 }
 
 }  // namespace control::lpv_affine

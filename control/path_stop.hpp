@@ -41,6 +41,7 @@ class PathStop {
   // δ of this cycle [rad]; `applied` is that of the cycle before.
   [[nodiscard]] double Steering(double applied) const;
 
+  [[nodiscard]] int place() const { return k_; }           // nearest point of the reference
   [[nodiscard]] double speed() const { return speed_; }    // as measured or reckoned [m/s], ≥ 0
   [[nodiscard]] double offset() const { return offset_; }  // of the path, left of the reference [m]
 
@@ -56,7 +57,7 @@ class PathStop {
   double psi_ = 0.0;
   double course_ = 0.0;  // direction of the velocity
   double speed_ = 0.0;
-  int k_ = 0;  // nearest point of the reference
+  int k_ = 0;
   double offset_ = 0.0;
 };
 

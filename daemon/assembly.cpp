@@ -5,22 +5,26 @@
 
 #include "config/route_file.hpp"
 #include "config/text_file.hpp"
+#include "control/lpv_affine_mpc.hpp"
 #include "control/lpv_mpc.hpp"
 #include "dbc/parser.hpp"
 
 namespace lpvmpcd {
-namespace {
 
-std::unique_ptr<control::Controller> MakeController(const Config& config) {
-  if (config.controller == ControllerKind::kNmpc) {
-    // Ipopt allocates and has no bound on its time.
-    throw std::runtime_error(
-        "controller nmpc is for lpvmpc alone: no daemon drives by it; take lpv or lpv-standard");
+std::unique_ptr<control::Controller> MakeController(const Config& config, const control::Course& course) {
+  switch (config.controller) {
+    case ControllerKind::kLpvAffine:
+      return std::make_unique<control::LpvAffineMpc>(config.vehicle, course, config.affine);
+    case ControllerKind::kLpv:
+    case ControllerKind::kLpvStandard:
+      return std::make_unique<control::LpvMpc>(config.vehicle, config.mpc);
+    case ControllerKind::kNmpc:
+      break;
   }
-  return std::make_unique<control::LpvMpc>(config.vehicle, config.mpc);
+  // Ipopt allocates and has no bound on its time.
+  throw std::runtime_error(
+      "controller nmpc is for lpvmpc alone: no daemon drives by it; take lpv-affine, lpv or lpv-standard");
 }
-
-}  // namespace
 
 dbc::VehicleBus OpenBus(const Config& config) {
   if (config.dbc.empty()) {
@@ -30,16 +34,24 @@ dbc::VehicleBus OpenBus(const Config& config) {
 }
 
 Assembly::Assembly(const Config& config, std::function<Time()> stopwatch)
-    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), MakeController(config)) {}
+    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), MakeController) {}
 
 Assembly::Assembly(const Config& config, const config::RouteFile& route, std::function<Time()> stopwatch,
-                   std::unique_ptr<control::Controller> controller)
+                   const ControllerMaker& make)
     : bus_(OpenBus(config)),
       reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
       road_(route.road),
-      controller_(std::move(controller)),
-      loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch)) {
-  if (reference_.size() <= config.mpc.horizon) {
+      course_(route.route, route.road, config.speed),
+      controller_(make(config, course_)),
+      check_({.vehicle = config.vehicle,
+              .footprint = config.affine.footprint,
+              .mu = config.affine.mu,
+              .t_s = config.affine.t_s},
+             course_),
+      // The paper's controllers plan for a point with a coarser model: their plans would not pass.
+      loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch),
+            config.controller == ControllerKind::kLpvAffine ? &check_ : nullptr) {
+  if (reference_.size() <= HorizonOf(config)) {
     throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");
   }
 }

@@ -10,7 +10,8 @@ namespace lpvmpcd {
 
 CommandGate::CommandGate(const dbc::VehicleBus& bus) : bus_(&bus) {
   constexpr std::array kNames = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
-                                 "SchedulingHealth", "ControllerDiagnostics", "PlannedHorizon"};
+                                 "SchedulingHealth", "ControllerDiagnostics", "ConstraintReport",
+                                 "PlannedHorizon"};
   static_assert(kNames.size() == kTxMessages);
   for (std::size_t i = 0; i < kTxMessages; ++i) {
     ids_[i] = bus.Find(std::string(kNames[i]))->id;  // every bus has our messages
@@ -47,6 +48,10 @@ bool CommandGate::Encode(const dbc::SchedulingHealth& health, can::Frame& out) {
 
 bool CommandGate::Encode(const dbc::ControllerDiagnostics& diagnostics, can::Frame& out) {
   return Encode(kDiagnostics, diagnostics, out);
+}
+
+bool CommandGate::Encode(const dbc::ConstraintReport& constraint, can::Frame& out) {
+  return Encode(kConstraint, constraint, out);
 }
 
 bool CommandGate::Encode(const dbc::HorizonHeader& header, can::Frame& out) {

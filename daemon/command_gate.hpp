@@ -34,6 +34,7 @@ class CommandGate {
   [[nodiscard]] bool Encode(const dbc::ControllerStatus& status, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::SchedulingHealth& health, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::ControllerDiagnostics& diagnostics, can::Frame& out);
+  [[nodiscard]] bool Encode(const dbc::ConstraintReport& constraint, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::HorizonHeader& header, can::Frame& out);
   [[nodiscard]] bool Encode(const dbc::HorizonPoint& point, can::Frame& out);
 
@@ -42,7 +43,16 @@ class CommandGate {
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:
-  enum Tx : std::size_t { kSteering, kAcceleration, kStatus, kHealth, kDiagnostics, kHorizon, kTxMessages };
+  enum Tx : std::size_t {
+    kSteering,
+    kAcceleration,
+    kStatus,
+    kHealth,
+    kDiagnostics,
+    kConstraint,
+    kHorizon,
+    kTxMessages
+  };
 
   [[nodiscard]] bool Encode(Tx tx, const dbc::Message& message, can::Frame& out);
 

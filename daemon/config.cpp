@@ -16,7 +16,8 @@ using config::TomlTable;
 
 constexpr double kSmallest = 1e-9;  // of what has to be positive
 constexpr double kLargest = 1e12;
-constexpr std::array kControllerNames{"lpv", "lpv-standard", "nmpc"};  // in the order of ControllerKind
+constexpr std::array kControllerNames{"lpv-affine", "lpv", "lpv-standard",
+                                      "nmpc"};  // in the order of ControllerKind
 
 // Sets `vector` from the array under `key`, if it is there.
 template <typename Vector>
@@ -42,6 +43,7 @@ void ReadCycle(const TomlTable& table, Config& config) {
   config.service.timeout = FromSeconds(timeout);
   config.loop.period = config.service.period;
   config.loop.deadline = FromSeconds(table.NumberOr("deadline", period, {0.001, period}, "s"));
+  config.loop.command_delay = FromSeconds(table.NumberOr("command_delay", 0.0, {0.0, 0.5}, "s"));
   config.mpc.t_s = period;
   if (table.BooleanOr("lockstep", false)) {
     RunInLockstep(config);
@@ -64,11 +66,17 @@ void ReadLimits(const TomlTable& table, Config& config) {
   config.mpc.u_min = {-l.max_steering, l.min_acceleration};
   config.mpc.u_max = {l.max_steering, l.max_acceleration};
   config.mpc.rate_max = {l.max_steering_step, l.max_acceleration_step};
+  config.affine.u_min = config.mpc.u_min;
+  config.affine.u_max = config.mpc.u_max;
 }
 
 void Select(Config& config, ControllerKind kind) {
   config.controller = kind;
   config.mpc.trust_region = kind == ControllerKind::kLpv;
+  // The paper's model divides by the speed, and its reference does not wait for who is late.
+  const bool affine = kind == ControllerKind::kLpvAffine;
+  config.loop.by_progress = affine;
+  config.loop.engage_min_speed = config.engage_min_speed.value_or(affine ? 0.0 : 3.0);
 }
 
 void ReadController(const TomlTable& table, Config& config) {
@@ -92,6 +100,40 @@ void ReadController(const TomlTable& table, Config& config) {
   }
 }
 
+// After the limits and the cycle.
+void ReadLpvAffine(const TomlTable& table, Config& config) {
+  control::LpvAffineSettings& mpc = config.affine;
+  mpc.t_s = ToSeconds(config.loop.period);
+  mpc.horizon = table.IntegerOr("horizon", mpc.horizon, {2, 100});
+  ReadVector(table, "Q", mpc.Q, {0.0, kLargest});
+  mpc.terminal = table.NumberOr("terminal", mpc.terminal, {0.0, 1e6});
+  ReadVector(table, "R", mpc.R, {kSmallest, kLargest});
+  ReadVector(table, "R_rate", mpc.R_rate, {kSmallest, kLargest});
+  const std::size_t trust = table.ChoiceOr("trust_region", 0, {"adaptive", "fixed", "none"});
+  mpc.adapt_trust_region = trust == 0;
+  mpc.trust_region = trust < 2;
+  ReadVector(table, "trust_radius", mpc.trust_radius, {kSmallest, kLargest});
+  mpc.mu = table.NumberOr("mu", mpc.mu, {0.05, 1.5});
+  mpc.friction_share = table.NumberOr("friction_share", mpc.friction_share, {0.1, 1.0});
+  mpc.obstacle_margin = table.NumberOr("obstacle_margin", mpc.obstacle_margin, {0.0, 5.0}, "m");
+  mpc.road_margin = table.NumberOr("road_margin", mpc.road_margin, {0.0, 5.0}, "m");
+  mpc.stop_gap = table.NumberOr("stop_gap", mpc.stop_gap, {0.0, 50.0}, "m");
+  const double steering_rate = table.NumberOr("max_steering_rate", 0.6, {0.01, 10.0}, "rad/s");
+  const double jerk = table.NumberOr("max_jerk", 20.0, {0.1, 400.0}, "m/s^3");
+  mpc.rate_max = config.mpc.rate_max.cwiseMin(mpc.t_s * control::Input(steering_rate, jerk));
+  mpc.iterations = table.IntegerOr("iterations", mpc.iterations, {1, 20});
+  control::SpeedLimits& speed = config.speed;
+  speed.lateral = table.NumberOr("lateral_acceleration", speed.lateral, {0.1, 13.0}, "m/s^2");
+  speed.acceleration = table.NumberOr("acceleration", speed.acceleration, {0.1, 13.0}, "m/s^2");
+  speed.deceleration = table.NumberOr("deceleration", speed.deceleration, {0.1, 13.0}, "m/s^2");
+}
+
+void ReadFootprint(const TomlTable& table, control::Footprint& footprint) {
+  footprint.front = table.NumberOr("front", footprint.front, {0.0, 20.0}, "m");
+  footprint.rear = table.NumberOr("rear", footprint.rear, {0.0, 20.0}, "m");
+  footprint.half_width = 0.5 * table.NumberOr("width", 2.0 * footprint.half_width, {0.0, 5.0}, "m");
+}
+
 void ReadVehicle(const TomlTable& table, control::VehicleParameters& vehicle) {
   vehicle.m = table.NumberOr("m", vehicle.m, {100.0, 1e5}, "kg");
   vehicle.I_z = table.NumberOr("I_z", vehicle.I_z, {10.0, 1e6}, "kg m^2");
@@ -103,7 +145,6 @@ void ReadVehicle(const TomlTable& table, control::VehicleParameters& vehicle) {
 
 void ReadModes(const TomlTable& engage, const TomlTable& degraded, const TomlTable& stop,
                LoopSettings& loop) {
-  loop.engage_min_speed = engage.NumberOr("min_speed", loop.engage_min_speed, {0.0, 50.0}, "m/s");
   loop.engage_max_heading_error =
       engage.NumberOr("max_heading_error", loop.engage_max_heading_error, {0.0, 3.15}, "rad");
   const double max_time = degraded.NumberOr("max_time", 1.0, {0.0, 10.0}, "s");
@@ -147,8 +188,13 @@ Config LoadConfig(const std::filesystem::path& file) {
   ReadMonitor(root.Table("monitor"), config.loop.monitor);
   ReadLimits(root.Table("limits"), config);
   ReadModes(root.Table("engage"), root.Table("degraded"), root.Table("safe_stop"), config.loop);
+  if (root.Table("engage").Has("min_speed")) {
+    config.engage_min_speed = root.Table("engage").Number("min_speed", {0.0, 50.0}, "m/s");
+  }
   ReadController(root.Table("controller"), config);
+  ReadLpvAffine(root.Table("lpv_affine"), config);
   ReadVehicle(root.Table("vehicle"), config.vehicle);
+  ReadFootprint(root.Table("vehicle"), config.affine.footprint);
   config.loop.vehicle = config.vehicle;
   config.loop.send_horizon = root.Table("status").BooleanOr("horizon", config.loop.send_horizon);
   const std::vector<std::string> levels = {"debug", "info", "warning", "error"};
@@ -177,6 +223,10 @@ void SelectController(Config& config, const std::string& name) {
   }
   Select(config, static_cast<ControllerKind>(known - kControllerNames.begin()));
   config.written.erase("controller.kind");
+}
+
+int HorizonOf(const Config& config) {
+  return config.controller == ControllerKind::kLpvAffine ? config.affine.horizon : config.mpc.horizon;
 }
 
 const char* ControllerName(ControllerKind kind) {

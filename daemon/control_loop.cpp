@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "control/keep_out.hpp"
 #include "daemon/plan_verdict.hpp"
 #include "daemon/report_frames.hpp"
 #include "daemon/route_place.hpp"
@@ -13,30 +14,38 @@ namespace {
 constexpr std::uint8_t kNoState = 15;
 constexpr int kNoPlanAge = 63;
 constexpr std::size_t kCommands = 2;
-constexpr std::size_t kReports = 4;    // status, health, diagnostics, header of the horizon
+constexpr std::size_t kReports = 4;  // status, health, diagnostics, header of the horizon
+constexpr std::size_t kMostObstacles = 16;
+constexpr int kShareForIterations =
+    4;  // of the deadline, that may have passed before another iteration begins
 constexpr int kPeriodsOfSilence = 40;  // without a command, after which others have the vehicle
 
 }  // namespace
 
 ControlLoop::ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bus,
                          control::Controller& controller, const control::Reference& reference,
-                         const control::RoadBounds& road, std::function<Time()> stopwatch)
+                         const control::RoadBounds& road, std::function<Time()> stopwatch,
+                         control::PlanCheck* check)
     : settings_(settings),
       controller_(&controller),
       reference_(&reference),
       road_(road),
       stopwatch_(std::move(stopwatch)),
+      check_(check),
       monitor_(bus, settings.monitor, settings.period),
       states_(settings.period),
       limiter_(settings.limits),
       gate_(bus),
       plan_(controller.horizon()),
-      stop_({.vehicle = settings.vehicle, .t_s = ToSeconds(settings.period)}, reference) {
+      stop_({.vehicle = settings.vehicle, .t_s = ToSeconds(settings.period)}, reference),
+      delay_(settings.vehicle, ToSeconds(settings.period), ToSeconds(settings.command_delay)),
+      time_left_([this] { return stopwatch_() - cycle_start_ < settings_.deadline / kShareForIterations; }) {
   const int horizon = controller.horizon();
   settings_.limits.max_age = std::min(settings.limits.max_age, horizon - 1);
   limiter_ = control::CommandLimiter(settings_.limits);
   const auto points = static_cast<std::size_t>(horizon) + 1;
   window_.resize(points);
+  moved_.reserve(kMostObstacles);
   frames_.reserve(kCommands + kReports + points);
 }
 
@@ -88,12 +97,14 @@ bool ControlLoop::Receive(const can::Frame& frame, Time now) {
 }
 
 std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
-  const Time start = stopwatch_();
+  cycle_start_ = stopwatch_();
   const Time waited = trigger == Trigger::kState ? now - trigger_time_ : Time{0};
   report_.previous_mode = mode_.mode;
   report_.solver = dbc::SolverStatus::kNone;
   report_.iterations = 0;
   report_.plan_accepted = false;
+  report_.relaxation = {};
+  report_.rejection = {};
   solve_ = nullptr;
 
   // 1. Time: which step it is, by the counter of the state (Receive) or, without a state, by the timer.
@@ -111,9 +122,9 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   TrackVehicle(inputs, engaging);
   if (waited <= settings_.deadline &&
       (engaging || (driving && inputs.state_new && inputs.state_fresh && inputs.route_left > 0))) {
-    Solve(engaging);
+    Solve(now, engaging);
   }
-  const Time elapsed = stopwatch_() - start;
+  const Time elapsed = stopwatch_() - cycle_start_;
   const Time age = waited + elapsed;
   const bool late = age > settings_.deadline;
   step_ = steps_.step() + (late ? age / settings_.period : 0);
@@ -138,6 +149,7 @@ std::span<const can::Frame> ControlLoop::Cycle(Time now, Trigger trigger) {
   }
   if (Commands(mode_.mode)) {
     applied_ = limited.command->u();
+    delay_.Given(applied_);
   } else {
     plan_.Drop();  // whoever engages next begins with a plan of his own
   }
@@ -181,6 +193,7 @@ ModeInputs ControlLoop::Judge(Time now, Trigger trigger) {
   const VehicleState& state = states_.state();
   if (!Commands(mode_.mode) && state.complete) {
     applied_ = state.feedback;
+    delay_.Reset(applied_);
   }
   ModeInputs inputs;
   inputs.bus_up = bus_up_;
@@ -207,11 +220,25 @@ ModeInputs ControlLoop::Judge(Time now, Trigger trigger) {
     on_route = place.has_value();
     route_start_ = steps_.step() - place.value_or(0);
   }
+  if (settings_.by_progress && Commands(mode_.mode)) {
+    route_start_ = steps_.step() - stop_.place();
+  }
   const std::int64_t k = steps_.step() - route_start_;
   report_.route_index = on_route ? static_cast<int>(k) : -1;
   inputs.near_route = on_route && speed >= settings_.engage_min_speed;
-  inputs.route_left = on_route ? reference_->size() - controller_->horizon() - k : 0;
+  if (settings_.by_progress) {
+    const bool arrived = inputs.standstill && AtRouteEnd();
+    inputs.route_left = on_route && !arrived ? std::max<std::int64_t>(reference_->size() - k, 1) : 0;
+  } else {
+    inputs.route_left = on_route ? reference_->size() - controller_->horizon() - k : 0;
+  }
   return inputs;
+}
+
+bool ControlLoop::AtRouteEnd() const {
+  constexpr double kWithin = 2.0;  // [m]
+  const control::State& end = (*reference_)[reference_->size() - 1];
+  return (states_.state().z - end).head<2>().norm() < kWithin;
 }
 
 void ControlLoop::TrackVehicle(const ModeInputs& inputs, bool engaging) {
@@ -223,30 +250,62 @@ void ControlLoop::TrackVehicle(const ModeInputs& inputs, bool engaging) {
   }
 }
 
-void ControlLoop::Solve(bool engaging) {
+void ControlLoop::Solve(Time now, bool engaging) {
   if (engaging) {
     controller_->Reset();
+    if (check_ != nullptr) check_->Reset();
+  }
+  // All as it will be when the command acts.
+  const VehicleState& state = states_.state();
+  z_ = delay_.Ahead(state.z, ToSeconds(now - state.timestamp));
+  moved_.assign(obstacles_.obstacles().begin(), obstacles_.obstacles().end());
+  for (control::Obstacle& obstacle : moved_) {
+    obstacle = control::Moved(obstacle, ToSeconds(obstacles_.Age(now)) + delay_.delay());
   }
   reference_->Window(static_cast<int>(steps_.step() - route_start_), window_);
-  control::State z = states_.state().z;
   const double psi = window_.front()[control::kPsi];
-  z[control::kPsi] = psi + control::WrapAngle(z[control::kPsi] - psi);
-  const control::Plan& plan = controller_->Step({.z = z,
+  z_[control::kPsi] = psi + control::WrapAngle(z_[control::kPsi] - psi);
+  const control::Plan& plan = controller_->Step({.z = z_,
                                                  .u_previous = applied_,
                                                  .reference = window_,
                                                  .road = road_,
-                                                 .obstacles = obstacles_.obstacles()});
+                                                 .obstacles = moved_,
+                                                 .time_left = &time_left_});
   solve_ = &plan;
   report_.solver = ToBus(plan.status);
   report_.iterations = plan.iterations;
+  if (plan.status != control::SolverStatus::kSolved) {
+    report_.relaxation = controller_->Unsatisfied();
+  } else if (plan.relaxation.amount > 0.0) {
+    report_.relaxation = plan.relaxation;
+  }
+}
+
+// A plan that goes wrong, unless going on with the last one goes wrong no later: then the new one, which knows better,
+// is the lesser evil.
+bool ControlLoop::Hits() {
+  if (check_ == nullptr) {
+    return false;
+  }
+  report_.rejection = check_->Judge(z_, solve_->u, moved_);
+  if (!report_.rejection) {
+    return false;
+  }
+  if (!plan_.Covers(steps_.step())) {
+    return true;
+  }
+  const auto last = check_->Judge(z_, plan_.From(steps_.step()), moved_);
+  return !last || last->constraint.step > report_.rejection->constraint.step;
 }
 
 void ControlLoop::JudgePlan(bool late) {
   if (solve_ == nullptr) {
     return;
   }
-  const dbc::FaultCode refusal =
-      late ? dbc::FaultCode::kDeadlineMissed : Refusal(*solve_, controller_->horizon());
+  dbc::FaultCode refusal = late ? dbc::FaultCode::kDeadlineMissed : Refusal(*solve_, controller_->horizon());
+  if (refusal == dbc::FaultCode::kNone && Hits()) {
+    refusal = dbc::FaultCode::kPlanRejected;
+  }
   report_.plan_accepted = refusal == dbc::FaultCode::kNone;
   if (report_.plan_accepted) {
     plan_.Take(*solve_, steps_.step());
@@ -321,6 +380,7 @@ void ControlLoop::EmitReports() {
   AppendStatus(report_, gate_, frames_);
   AppendHealth(solve_, gate_, frames_);
   AppendDiagnostics(report_, mode_, gate_, frames_);
+  AppendConstraint(report_, gate_, frames_);
   if (settings_.send_horizon && report_.plan_accepted) {
     AppendHorizon(*solve_, states_.state().counter, settings_.period, gate_, frames_);
   }

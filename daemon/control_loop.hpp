@@ -20,9 +20,11 @@
 #include <vector>
 
 #include "can/frame.hpp"
+#include "control/command_delay.hpp"
 #include "control/command_limiter.hpp"
 #include "control/controller.hpp"
 #include "control/path_stop.hpp"
+#include "control/plan_check.hpp"
 #include "control/reference.hpp"
 #include "control/vehicle_parameters.hpp"
 #include "daemon/command_gate.hpp"
@@ -50,22 +52,25 @@ struct LoopSettings {
   double engage_min_speed = 3.0;          // [m/s], 0..50
   double engage_max_heading_error = 0.5;  // against the route [rad], 0..π
   bool send_horizon = true;               // PlannedHorizon frames
+  bool by_progress = false;  // the reference goes on from the point beside the vehicle, not by time
+  Time command_delay{};      // from a command to its effect
 };
 
 enum class Trigger : std::uint8_t { kState, kTimer };
 
 class ControlLoop {
  public:
-  // `stopwatch` tells a time of any start, for durations only. `bus`, `controller` and `reference` must
-  // outlive the loop. Throws std::runtime_error: the bus lacks a message.
+  // `stopwatch` tells a time of any start, for durations only. `bus`, `controller`, `reference` and `check` must
+  // outlive the loop. Without a check (null) a plan is followed if its figures are numbers. Throws std::runtime_error:
+  // the bus lacks a message.
   ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bus, control::Controller& controller,
               const control::Reference& reference, const control::RoadBounds& road,
-              std::function<Time()> stopwatch);
+              std::function<Time()> stopwatch, control::PlanCheck* check = nullptr);
 
   // Takes a frame in. True: a state set is complete and a cycle is due.
   [[nodiscard]] bool Receive(const can::Frame& frame, Time now);
 
-  // One control cycle. The frames to send, in this order: both commands, status, scheduling health, diagnostics, and
+  // One control cycle. The frames to send, in this order: both commands, status, scheduling health, diagnostics, constraint, and
   // with a new plan its horizon. They belong to the loop and stay until the next call. A state that has waited longer
   // than the deadline, here or while its plan was made, gets no answer: the last plan goes on, from where it is now.
   [[nodiscard]] std::span<const can::Frame> Cycle(Time now, Trigger trigger);
@@ -96,8 +101,10 @@ class ControlLoop {
  private:
   [[nodiscard]] ModeInputs Judge(Time now, Trigger trigger);
   void TrackVehicle(const ModeInputs& inputs, bool engaging);
-  void Solve(bool engaging);
+  void Solve(Time now, bool engaging);
   void JudgePlan(bool late);
+  [[nodiscard]] bool Hits();
+  [[nodiscard]] bool AtRouteEnd() const;
   [[nodiscard]] std::optional<Cause> PlanFault(const ModeInputs& inputs, bool late) const;
   [[nodiscard]] control::LimitResult Command() const;
   [[nodiscard]] control::LimitResult Measured() const;
@@ -111,6 +118,7 @@ class ControlLoop {
   const control::Reference* reference_;
   control::RoadBounds road_;
   std::function<Time()> stopwatch_;
+  control::PlanCheck* check_;
 
   MessageMonitor monitor_;
   StateAssembler states_;
@@ -134,6 +142,12 @@ class ControlLoop {
   const control::Plan* solve_ = nullptr;             // of this cycle, accepted or not
   control::PathStop stop_;                           // knows where the vehicle is, and where the plan leads
   control::Input applied_ = control::Input::Zero();  // last command that was enabled, else as measured
+
+  control::CommandDelay delay_;
+  Time cycle_start_{};                         // by the stopwatch
+  std::function<bool()> time_left_;            // for another iteration
+  control::State z_ = control::State::Zero();  // when the command of this cycle acts
+  std::vector<control::Obstacle> moved_;       // the obstacles then
 
   std::vector<control::State> window_;
   std::vector<can::Frame> frames_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "control/constraint.hpp"
 #include "control/types.hpp"
 #include "daemon/faulty_message.hpp"
 #include "daemon/mode_machine.hpp"
@@ -20,6 +21,10 @@ struct CycleReport {
   dbc::SolverStatus solver = dbc::SolverStatus::kNone;
   int iterations = 0;  // of the solver
   bool plan_accepted = false;
+  // What the plan of this cycle could not meet and by how much, or of an unsolved problem what stands most in its way.
+  std::optional<control::ConstraintViolation> relaxation = std::nullopt;
+  // What would go wrong with it. Of an accepted plan: no less, and no later, than with the last one.
+  std::optional<control::ConstraintViolation> rejection = std::nullopt;
   bool engagement_refused = false;  // the driver asked in this cycle and did not get it
   std::optional<FaultyMessage> faulty_message = std::nullopt;
   Time countdown = Time::max();  // until the vehicle is stopped, as things are; max: not driving

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "daemon/log.hpp"
+#include "daemon/violation_text.hpp"
 
 namespace lpvmpcd {
 
@@ -62,6 +63,7 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
   if (plans_refused_.Tell(report.plans_refused, now, n)) {
     spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.last_refusal));
   }
+  Constraint(report, now);
   if (deadline_misses_.Tell(report.deadline_misses, now, n)) {
     spdlog::warn("deadlines missed: {}", n);
   }
@@ -70,6 +72,23 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
   }
   if (late_states_.Tell(timer_cycles_, now, n)) {
     spdlog::warn("cycles without a new vehicle state: {}", n);
+  }
+}
+
+// At most once a second.
+void EventLog::Constraint(const CycleReport& report, Time now) {
+  const auto& violation = report.plan_accepted || !report.rejection ? report.relaxation : report.rejection;
+  if (!violation || (constraint_told_ && now - last_constraint_ < 1s)) return;
+  constraint_told_ = true;
+  last_constraint_ = now;
+  const std::string text = ViolationText(*violation);
+  if (report.solver != dbc::SolverStatus::kSolved) {
+    spdlog::warn("problem not solved; most in the way: {}", text);
+  } else if (!report.plan_accepted && report.rejection) {
+    spdlog::warn("plan rejected: {}", text);
+  } else {
+    spdlog::log(report.rejection ? spdlog::level::warn : spdlog::level::info, "constraint relaxed: {}{}",
+                text, report.rejection ? ", and going on with the last plan would be no better" : "");
   }
 }
 

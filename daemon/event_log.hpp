@@ -35,11 +35,15 @@ class EventLog {
   static void Times(const Latencies& latencies);
 
  private:
+  void Constraint(const CycleReport& report, Time now);
+
   std::array<EventCount, kRxFaults> rx_faults_;
   EventCount lost_, rejected_lists_, plans_refused_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;
   dbc::FaultCode told_fault_ = dbc::FaultCode::kNone;
   Time last_fault_{};
+  bool constraint_told_ = false;
+  Time last_constraint_{};
 };
 
 // Text of a fault code for people.

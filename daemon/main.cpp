@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   }
   if (check) {
     std::cout << "interface " << config->service.interface << ", controller "
-              << lpvmpcd::ControllerName(config->controller) << ", horizon " << config->mpc.horizon
+              << lpvmpcd::ControllerName(config->controller) << ", horizon " << lpvmpcd::HorizonOf(*config)
               << ", period " << config->mpc.t_s << " s, route " << config->route.string() << " with "
               << assembly->reference().size() << " points" << std::endl;
     return std::cout ? 0 : Fail(std::runtime_error("cannot write to stdout"), kRunTimeError);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "control/controller.hpp"
@@ -35,6 +36,10 @@ class PlanInForce {
   // Requires Covers(step).
   [[nodiscard]] const control::Input& At(std::int64_t step) const {
     return u_[static_cast<std::size_t>(step - made_)];
+  }
+  // Requires Covers(step): the inputs from `step` on.
+  [[nodiscard]] std::span<const control::Input> From(std::int64_t step) const {
+    return std::span(u_).subspan(static_cast<std::size_t>(step - made_));
   }
 
  private:

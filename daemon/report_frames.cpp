@@ -15,6 +15,28 @@ std::uint8_t CodeOf(const std::optional<Enum>& value) {
   return value ? static_cast<std::uint8_t>(static_cast<unsigned>(*value) + 1U) : std::uint8_t{0};
 }
 
+dbc::ConstraintName NameOf(control::ConstraintKind kind) {
+  switch (kind) {
+    case control::ConstraintKind::kModel:
+      return dbc::ConstraintName::kModel;
+    case control::ConstraintKind::kInput:
+      return dbc::ConstraintName::kInput;
+    case control::ConstraintKind::kRate:
+      return dbc::ConstraintName::kRate;
+    case control::ConstraintKind::kState:
+      return dbc::ConstraintName::kState;
+    case control::ConstraintKind::kRoad:
+      return dbc::ConstraintName::kRoad;
+    case control::ConstraintKind::kObstacle:
+      return dbc::ConstraintName::kObstacle;
+    case control::ConstraintKind::kFriction:
+      return dbc::ConstraintName::kFriction;
+    case control::ConstraintKind::kTrust:
+      break;
+  }
+  return dbc::ConstraintName::kTrust;
+}
+
 template <typename Message>
 void Append(const Message& message, CommandGate& gate, std::vector<can::Frame>& frames) {
   frames.emplace_back();
@@ -57,6 +79,26 @@ void AppendDiagnostics(const CycleReport& report, const ModeState& mode, Command
                                     .cycle_latency = ToSeconds(report.cycle_latency),
                                     .plans_refused = static_cast<std::uint16_t>(report.plans_refused % 1024)},
          gate, frames);
+}
+
+void AppendConstraint(const CycleReport& report, CommandGate& gate, std::vector<can::Frame>& frames) {
+  const bool rejected = report.rejection && !report.plan_accepted;
+  const auto& violation = rejected ? report.rejection : report.relaxation;
+  dbc::ConstraintReport told;
+  if (violation) {
+    const auto code = [](int value, int most) {
+      return static_cast<std::uint8_t>(std::clamp(value, 0, most));
+    };
+    const bool relaxed = report.solver == dbc::SolverStatus::kSolved;
+    told = {.verdict = rejected  ? dbc::ConstraintVerdict::kRejected
+                       : relaxed ? dbc::ConstraintVerdict::kRelaxed
+                                 : dbc::ConstraintVerdict::kUnsolved,
+            .constraint = NameOf(violation->constraint.kind),
+            .index = code(violation->constraint.index, 15),
+            .step = code(violation->constraint.step, 127),
+            .amount = violation->amount};
+  }
+  Append(told, gate, frames);
 }
 
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, Time period, CommandGate& gate,

@@ -22,6 +22,9 @@ void AppendHealth(const control::Plan* solve, CommandGate& gate, std::vector<can
 void AppendDiagnostics(const CycleReport& report, const ModeState& mode, CommandGate& gate,
                        std::vector<can::Frame>& frames);
 
+// ConstraintReport: of a rejected plan what would go wrong with it, else what could not be met.
+void AppendConstraint(const CycleReport& report, CommandGate& gate, std::vector<can::Frame>& frames);
+
 // PlannedHorizon, header and points (at most 127, as many as the bus counts), of a plan made for the state of this
 // counter.
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, Time period, CommandGate& gate,

@@ -103,8 +103,19 @@ inline constexpr auto kFields<ControllerDiagnostics> =
            Field{"FrameFault", &ControllerDiagnostics::frame_fault},
            Field{"CycleLatency", &ControllerDiagnostics::cycle_latency},
            Field{"PlansRefused", &ControllerDiagnostics::plans_refused});
+template <>
+inline constexpr auto kFields<ConstraintReport> =
+    Fields("ConstraintReport", Field{"Verdict", &ConstraintReport::verdict},
+           Field{"Constraint", &ConstraintReport::constraint}, Field{"Index", &ConstraintReport::index},
+           Field{"Step", &ConstraintReport::step}, Field{"Amount", &ConstraintReport::amount});
 
 // The last enumerator of each enumeration; all of them begin at 0 and leave no gap.
+inline constexpr ConstraintVerdict LastOf(ConstraintVerdict) {
+  return ConstraintVerdict::kRejected;
+}
+inline constexpr ConstraintName LastOf(ConstraintName) {
+  return ConstraintName::kTrust;
+}
 inline constexpr PassingSide LastOf(PassingSide) {
   return PassingSide::kRight;
 }

@@ -176,9 +176,30 @@ struct ControllerDiagnostics {
   std::uint16_t plans_refused = 0;  // since start, modulo 1024
 };
 
+enum class ConstraintVerdict : std::uint8_t { kMet = 0, kRelaxed = 1, kUnsolved = 2, kRejected = 3 };
+enum class ConstraintName : std::uint8_t {
+  kModel = 0,
+  kInput = 1,
+  kRate = 2,
+  kState = 3,
+  kRoad = 4,
+  kObstacle = 5,
+  kFriction = 6,
+  kTrust = 7,
+};
+
+// What a plan could not meet.
+struct ConstraintReport {
+  ConstraintVerdict verdict = ConstraintVerdict::kMet;
+  ConstraintName constraint = ConstraintName::kModel;
+  std::uint8_t index = 0;  // id of the obstacle, number of the state or input
+  std::uint8_t step = 0;   // of the horizon
+  double amount = 0.0;     // in the unit of what is constrained
+};
+
 using Message =
     std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape, ObstacleMotion,
                  ObstacleList, DriverRequest, SteeringCommand, AccelerationCommand, ControllerStatus,
-                 SchedulingHealth, HorizonHeader, HorizonPoint, ControllerDiagnostics>;
+                 SchedulingHealth, HorizonHeader, HorizonPoint, ControllerDiagnostics, ConstraintReport>;
 
 }  // namespace dbc

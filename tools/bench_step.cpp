@@ -28,18 +28,20 @@ struct Samples {
 
 // One drive of the plant with the controller, no frames: only the control step is timed.
 void Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config, const control::Reference& reference,
-           const control::RoadBounds& road, Samples& samples) {
-  const std::unique_ptr<control::Controller> controller = MakeController(config);
+           const config::RouteFile& route, Samples& samples) {
+  const int horizon = lpvmpcd::HorizonOf(config);
+  const control::Course course(route.route, route.road, config.speed);
+  const std::unique_ptr<control::Controller> controller = tools::MakeController(config, course);
   sim::Plant plant(scenario.plant, reference[0]);
   control::Input u = control::Input::Zero();
-  std::vector<control::State> window(static_cast<std::size_t>(config.mpc.horizon) + 1);
-  for (int k = 0; k + config.mpc.horizon < reference.size(); ++k) {
+  std::vector<control::State> window(static_cast<std::size_t>(horizon) + 1);
+  for (int k = 0; k + horizon < reference.size(); ++k) {
     const auto start = std::chrono::steady_clock::now();
     reference.Window(k, window);
     const control::Plan& plan = controller->Step({.z = plant.state(),
                                                   .u_previous = u,
                                                   .reference = window,
-                                                  .road = road,
+                                                  .road = route.road,
                                                   .obstacles = scenario.obstacles});
     const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
     samples.microseconds.push_back(elapsed.count());
@@ -72,9 +74,9 @@ void BenchStep(const BenchStepOptions& options, std::ostream& out) {
   nlohmann::json rows = nlohmann::json::array();
   if (!options.json) out << "   N   steps  median_us    p99_us    max_us  iterations  unsolved\n";
   for (const int horizon : options.horizons) {
-    config.mpc.horizon = horizon;
+    config.mpc.horizon = config.affine.horizon = horizon;
     Samples samples;
-    for (int i = 0; i < options.repeat; ++i) Drive(scenario, config, reference, route.road, samples);
+    for (int i = 0; i < options.repeat; ++i) Drive(scenario, config, reference, route, samples);
     std::ranges::sort(samples.microseconds);
     const std::size_t count = samples.microseconds.size();
     const double median = sim::Percentile(samples.microseconds, 0.5);

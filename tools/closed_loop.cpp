@@ -28,9 +28,12 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Confi
   }
   lpvmpcd::Config untimed = config;  // what a computer takes for a step must not change the drive
   untimed.loop.deadline = lpvmpcd::Time::max();
-  std::unique_ptr<control::Controller> law = MakeController(config);
-  if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
-  lpvmpcd::Assembly controller(untimed, route, lpvmpcd::MonotonicNow, std::move(law));
+  const auto make = [&](const lpvmpcd::Config& of, const control::Course& course) {
+    std::unique_ptr<control::Controller> law = tools::MakeController(of, course);
+    if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
+    return law;
+  };
+  lpvmpcd::Assembly controller(untimed, route, lpvmpcd::MonotonicNow, make);
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);
   for (can::Time now{}; !recorder.finished(); now += config.loop.period) {

@@ -39,8 +39,6 @@ struct DriveFigures {
                                         const config::RouteFile& route, const CostWeights& weights,
                                         const std::function<void(const can::Frame&)>& frame = nullptr);
 
-// "obstacle 1 at i = 8, short of 31.0 mm"
-[[nodiscard]] std::string ToText(const control::ConstraintViolation& violation);
 // "step 134, infeasible: obstacle 1 at i = 8, short of 31.0 mm"
 [[nodiscard]] std::string ToText(const FirstFailure& failure);
 

@@ -149,11 +149,11 @@ ordered_json DrivePage(const std::filesystem::path& run_dir) {
   const bool plans_told =
       std::ranges::any_of(record.samples, [](const DriveSample& s) { return !s.plan.empty(); });
   if (!record.obstacles.empty() && plans_told)
-    sections.push_back(FansSection(record, drive.config.mpc.horizon));
+    sections.push_back(FansSection(record, lpvmpcd::HorizonOf(drive.config)));
   return {{"title", drive.scenario.name},
           {"subtitle", fmt::format("{}{}controller {}, N = {}", drive.scenario.description,
                                    drive.scenario.description.empty() ? "" : " · ", controller,
-                                   drive.config.mpc.horizon)},
+                                   lpvmpcd::HorizonOf(drive.config))},
           {"roads", {{"road", RoadData(road)}}},
           {"drives",
            {{"drive", DriveData(record, {.name = controller, .road_key = "road"}, drive.config, road)}}},

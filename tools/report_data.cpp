@@ -133,7 +133,7 @@ ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const
   const control::Input &lo = config.mpc.u_min, &hi = config.mpc.u_max;
   return {{"name", label.name},
           {"controller", lpvmpcd::ControllerName(config.controller)},
-          {"horizon", config.mpc.horizon},
+          {"horizon", lpvmpcd::HorizonOf(config)},
           {"t_s", config.mpc.t_s},
           {"road", label.road_key},
           {"obstacles", obstacles},

@@ -36,6 +36,8 @@ class CommandGateTest : public testing::Test {
     frames.push_back(frame);
     EXPECT_TRUE(gate_.Encode(dbc::ControllerDiagnostics{}, frame));
     frames.push_back(frame);
+    EXPECT_TRUE(gate_.Encode(dbc::ConstraintReport{}, frame));
+    frames.push_back(frame);
     EXPECT_TRUE(gate_.Encode(dbc::HorizonHeader{}, frame));
     frames.push_back(frame);
     return frames;
@@ -87,8 +89,8 @@ TEST_F(CommandGateTest, AgeBeyondWhatTheFrameHoldsIsItsLargest) {
 }
 
 TEST_F(CommandGateTest, EveryMessageHasItsOwnIdAndCounterAndIsProtected) {
-  const std::array<const char*, 6> names = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
-                                            "SchedulingHealth", "ControllerDiagnostics", "PlannedHorizon"};
+  const std::array<const char*, 7> names = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
+                                            "SchedulingHealth", "ControllerDiagnostics", "ConstraintReport", "PlannedHorizon"};
   for (std::uint8_t i = 0; i < 31; ++i) {
     const std::vector<can::Frame> frames = OneOfEach();
     for (std::size_t message = 0; message < frames.size(); ++message) {

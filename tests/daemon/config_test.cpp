@@ -42,7 +42,7 @@ TEST_F(ConfigTest, RouteIsAllThatIsRequiredAndItsPathIsRelativeToTheFile) {
   EXPECT_EQ(config.route, folder_ / "route.toml");
   EXPECT_EQ(config.service.interface, "can0");
   EXPECT_EQ(config.service.timeout, FromSeconds(0.075));
-  EXPECT_STREQ(ControllerName(config.controller), "lpv");
+  EXPECT_STREQ(ControllerName(config.controller), "lpv-affine");
   EXPECT_THAT(Error(""), HasSubstr("file"));
 }
 

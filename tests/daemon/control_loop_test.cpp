@@ -63,7 +63,7 @@ std::vector<Eigen::Vector2d> StraightRoute() {
 
 class ControlLoopTest : public testing::Test {
  protected:
-  static constexpr std::size_t kWithoutHorizon = 5;  // frames of a cycle
+  static constexpr std::size_t kWithoutHorizon = 6;  // frames of a cycle
   struct Sent {
     dbc::SteeringCommand steering;
     dbc::AccelerationCommand acceleration;

@@ -60,7 +60,9 @@ std::array<dbc::Message, std::variant_size_v<dbc::Message>> RandomMessages(Value
           dbc::HorizonHeader{v.Byte(128), v.Byte(16), v.Real()},
           dbc::HorizonPoint{v.Byte(128), v.Real(), v.Real()},
           dbc::ControllerDiagnostics{v.One(dbc::ModeCause::kPlanRejected), v.One(dbc::Mode::kFault), v.Real(),
-                                     v.Byte(7), v.Byte(10), v.Real(), v.Byte(256)}};
+                                     v.Byte(7), v.Byte(10), v.Real(), v.Byte(256)},
+          dbc::ConstraintReport{v.One(dbc::ConstraintVerdict::kRejected), v.One(dbc::ConstraintName::kTrust),
+                                v.Byte(16), v.Byte(128), v.Real()}};
 }
 
 }  // namespace

@@ -56,6 +56,11 @@ const std::vector<dbc::Message>& Samples() {
                                  .frame_fault = 9,
                                  .cycle_latency = 0.0123,
                                  .plans_refused = 1023},
+      dbc::ConstraintReport{.verdict = dbc::ConstraintVerdict::kRejected,
+                            .constraint = dbc::ConstraintName::kObstacle,
+                            .index = 15,
+                            .step = 40,
+                            .amount = 0.125},
   };
   return kSamples;
 }
@@ -257,7 +262,7 @@ TEST(VehicleBus, OwnFramesAreInRangeUntilOneOfTheirValuesIsNot) {
 
 TEST(VehicleBus, MessagesAreToldWithIdPeriodAndDistinctDataIds) {
   const dbc::VehicleBus bus;
-  ASSERT_EQ(bus.messages().size(), 12u);
+  ASSERT_EQ(bus.messages().size(), 13u);
   std::set<std::uint16_t> data_ids;
   for (const dbc::MessageInfo& info : bus.messages()) {
     EXPECT_EQ(info.length, 8);

@@ -70,7 +70,9 @@ int main(int argc, char** argv) {
     config.service.interface = argv[4];
     if (argc > 5) lpvmpcd::SelectLockstep(config);
     lpvmpcd::Assembly assembly(config, config::LoadRoute(config.route), lpvmpcd::MonotonicNow,
-                               std::make_unique<FaultyController>(config, FaultFromEnvironment()));
+                               [](const lpvmpcd::Config& of, const control::Course&) {
+                                 return std::make_unique<FaultyController>(of, FaultFromEnvironment());
+                               });
     lpvmpcd::OpenLog(config.log_level);
     lpvmpcd::Service service(config.service, assembly.loop(), [] {});
     service.Run();
