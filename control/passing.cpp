@@ -40,11 +40,16 @@ PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles
               .half_length = SupportOf(obstacle, along)};
   const double behind = s - settings_.footprint.rear - settings_.margin;
   const double gap = place.s - decision.half_length - s - settings_.footprint.front;
-  const double closing = std::max(upsilon, kSlowest) - decision.speed;
-  double time = 0.0;
-  if (gap > 0.0) time = closing > 0.0 ? gap / closing : std::numeric_limits<double>::infinity();
+  const auto time_at = [&](double speed) {
+    if (gap <= 0.0) return 0.0;
+    const double closing = std::max(speed, kSlowest) - decision.speed;
+    return closing > 0.0 ? gap / closing : std::numeric_limits<double>::infinity();
+  };
   const bool passed = place.s + decision.half_length < behind && decision.speed <= upsilon;
-  if (passed || !(time <= settings_.look_ahead)) return {.index = index, .time = -1.0};
+  // Who follows it at its own speed would never meet it, and catch up with it were it ignored.
+  const double wanted = std::max(upsilon, course_->At(s).speed);
+  if (passed || !(time_at(wanted) <= settings_.look_ahead)) return {.index = index, .time = -1.0};
+  const double time = std::min(time_at(upsilon), settings_.look_ahead);
   return {.index = index,
           .s = place.s + decision.speed * time,
           .time = time,

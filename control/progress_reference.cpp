@@ -11,6 +11,8 @@ namespace {
 constexpr double kSpeedTolerance = 0.5;
 // Of the comfortable deceleration: brakes that catch up with a profile.
 constexpr double kHarder = 1.5;
+// Slower than a line that moves, per metre beyond it [1/s].
+constexpr double kFallBack = 0.5;
 
 }  // namespace
 
@@ -18,7 +20,9 @@ double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> 
   double speed = course_->At(s).speed;
   for (const StopLine& stop : stops) {
     const double distance = stop.s + stop.speed * t - s;
-    speed = std::min(speed, stop.speed + StoppingSpeed(distance, course_->limits().deceleration));
+    const double over =
+        distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, course_->limits().deceleration);
+    speed = std::min(speed, std::max(stop.speed + over, 0.0));
   }
   return speed;
 }

@@ -126,6 +126,12 @@ TEST_F(Passing, ObstacleThatIsNotMetIsIgnored) {
   EXPECT_NE(DecideAnew(At(-3.0, 2.5, 1.0)), Passage::kIgnored) << "beside it yet";
 }
 
+TEST_F(Passing, ObstacleThatIsFollowedAtItsOwnSpeedIsNotIgnored) {
+  Obstacle slow = At(8.0, 0.0, 2.0);
+  slow.velocity_X = 5.0;
+  for (const double speed : {4.5, 5.0, 5.5}) EXPECT_EQ(Decide(slow, 0.0, speed), Passage::kStop) << speed;
+}
+
 TEST_F(Passing, WhereItIsTooLateToStopTheWidestGapIsTaken) {
   const Obstacle wide = At(8.0, -0.5, 3.5);  // 2.5 m before the front
   EXPECT_EQ(DecideAnew(wide, 0.0, kSpeed), Passage::kLeft);

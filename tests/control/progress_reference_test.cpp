@@ -108,6 +108,16 @@ TEST(ProgressReference, BehindALineThatMovesItGoesOnAtItsSpeed) {
   EXPECT_NEAR(reference.z.back()[kUpsilon], line.speed, 0.3);
 }
 
+TEST(ProgressReference, BeyondALineThatMovesItFallsBack) {
+  const Course course(testing::StraightRoad(500.0, 12.0), {}, {});
+  const StopLine line{.s = 60.0, .speed = 5.0};
+  const Filled reference(course, 61.0, 5.0, {&line, 1}, 20.0);
+  EXPECT_LT(reference.z[0][kUpsilon], line.speed);
+  EXPECT_NEAR(reference.s.back(), line.s + line.speed * 20.0, 0.1);
+  const StopLine standing{.s = 60.0};
+  EXPECT_EQ(Filled(course, 61.0, 0.0, {&standing, 1}, 2.0).s.back(), 61.0);
+}
+
 TEST(ProgressReference, StopsAtTheEndOfTheCourseAndStaysThere) {
   const Course course(testing::StraightRoad(60.0, 10.0), {}, {});
   const Filled reference(course, 20.0, 10.0, {}, 15.0);
