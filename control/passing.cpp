@@ -71,7 +71,8 @@ std::span<const PassingDecision> PassingPlanner::Decide(std::span<const Obstacle
     }
   }
   const auto end = meetings_.begin() + static_cast<std::ptrdiff_t>(count);
-  std::sort(meetings_.begin(), end, [](const Meeting& a, const Meeting& b) { return a.s < b.s; });
+  std::sort(meetings_.begin(), end,
+            [](const Meeting& a, const Meeting& b) { return a.s - a.half_length < b.s - b.half_length; });
 
   // Obstacles between which the vehicle does not fit along the road are met together.
   const double length = settings_.footprint.front + settings_.footprint.rear + 2.0 * settings_.margin;

@@ -82,6 +82,17 @@ TEST_F(Passing, ObstaclesBetweenWhichItDoesNotFitArePassedAsOne) {
   EXPECT_EQ(apart[1], Passage::kLeft);
 }
 
+TEST_F(Passing, LongObstacleBelongsToWhatItBeginsBeside) {
+  const Obstacle closes_left = At(20.0, 1.6, 1.5);
+  const Obstacle harmless = At(32.0, -3.5, 0.3);
+  Obstacle closes_right = At(38.0, -1.6, 1.5);
+  EXPECT_EQ(Decide({closes_left, harmless, closes_right})[0], Passage::kRight);
+  closes_right.r_x = 15.0;  // begins 1.5 m behind the first
+  planner_.Reset();
+  for (const Passage passage : Decide({closes_left, harmless, closes_right}))
+    EXPECT_EQ(passage, Passage::kStop);
+}
+
 TEST_F(Passing, DecisionIsKeptWhileItCanBe) {
   for (const Passage first : {Passage::kLeft, Passage::kRight}) {
     planner_.Reset();
