@@ -15,6 +15,8 @@ constexpr double kLacking = 50.0;     // per metre that it is too narrow
 constexpr double kChange = 0.6;    // per obstacle that would be passed on the other side than decided before
 constexpr double kTooMuch = 15.0;  // rather stop
 
+constexpr double kStoppedWithin = 0.1;  // [m]
+
 }  // namespace
 
 Passage& PassingPlanner::Kept(const Obstacle& obstacle) {
@@ -101,8 +103,8 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
   const double keep = half_width + settings_.margin;
   const double right_edge = course_->road().right + half_width + settings_.road_margin;
   const double left_edge = course_->road().left - half_width - settings_.road_margin;
-  // 90 % of the grip stop it within the distance that is left.
-  const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, 0.0);
+  // 90 % of the grip stop it within the distance that is left; at a walking pace, anywhere.
+  const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, kStoppedWithin);
   // Gap g lies left of the first g obstacles and right of the others.
   double best_cost = std::numeric_limits<double>::infinity();
   double best_lateral = from;

@@ -152,6 +152,15 @@ TEST_F(Passing, WhereItIsTooLateToStopTheWidestGapIsTaken) {
   EXPECT_EQ(DecideAnew(other, 0.0, kSpeed), Passage::kRight);
 }
 
+TEST_F(Passing, AtStandstillItStaysBeforeABlockedRoadThoughSomethingIsBesideIt) {
+  for (const double speed : {0.0, 0.02, 0.5}) {
+    planner_.Reset();
+    for (const Passage passage : Decide({At(0.5, -2.5, 0.5), At(8.0, 0.0, 3.0)}, 0.0, speed)) {
+      EXPECT_EQ(passage, Passage::kStop);
+    }
+  }
+}
+
 TEST_F(Passing, ShiftThatNeedsMoreThanTheGripIsStoppedForWhileThatIsPossible) {
   constexpr double kSlow = 6.0;
   const auto fork = [](double ahead) {
