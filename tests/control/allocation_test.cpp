@@ -5,9 +5,11 @@
 #include <limits>
 #include <memory>
 
+#include "control/lpv_affine_mpc.hpp"
 #include "control/lpv_mpc.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/closed_loop.hpp"
+#include "tests/control/course_loop.hpp"
 #include "tests/control/qp_instance.hpp"
 #include "tests/support/allocations.hpp"
 
@@ -101,6 +103,34 @@ TEST(Allocations, ControlStepTakesNone) {
     mpc.Reset();
     step(SolverStatus::kSolved);
   }
+}
+
+// Among obstacles, at a blocked road, in hold, and where nothing is solved.
+TEST(Allocations, StepWithTheAffineModelTakesNone) {
+  LpvAffineSettings settings;
+  settings.iterations = 3;
+  settings.converged = 0.0;
+  testing::CourseLoop loop(testing::WindingRoad(30.0, 12.0), settings);
+  loop.obstacles().reserve(100);
+  const auto step = [&](SolverStatus expected) {
+    const ControllerInput input = loop.Asked();
+    const std::size_t before = Taken();
+    const Plan& plan = loop.mpc().Step(input);
+    const std::size_t taken = Taken() - before;
+    EXPECT_EQ(taken, 0u);
+    ASSERT_EQ(plan.status, expected);
+    if (plan.status == SolverStatus::kSolved) loop.Drive(plan);
+  };
+  loop.obstacles() = {loop.ObstacleAt(30.0, 0.6, 0.6), loop.ObstacleAt(31.0, -2.5, 0.6)};
+  while (loop.s() < 50.0) step(SolverStatus::kSolved);
+  loop.obstacles()[0] = loop.ObstacleAt(85.0, 0.0, 3.0);
+  for (int k = 0; k < 200; ++k) step(SolverStatus::kSolved);
+  EXPECT_LT(loop.z()[kUpsilon], 0.01) << "it holds";
+  loop.obstacles().assign(100, loop.ObstacleAt(85.0, 0.0, 0.5));
+  step(SolverStatus::kNumericalFailure);
+  loop.obstacles().clear();
+  loop.mpc().Reset();
+  step(SolverStatus::kSolved);
 }
 
 }  // namespace
