@@ -9,6 +9,18 @@ namespace control {
 
 using namespace lpv_affine;
 
+namespace {
+
+bool IsFinite(const ControllerInput& input) {
+  return input.z.allFinite() && input.u_previous.allFinite() &&
+         std::ranges::all_of(input.obstacles, [](const Obstacle& o) {
+           return Eigen::Vector<double, 7>(o.X, o.Y, o.r_x, o.r_y, o.heading, o.velocity_X, o.velocity_Y)
+               .allFinite();
+         });
+}
+
+}  // namespace
+
 LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const Course& course,
                            const LpvAffineSettings& settings)
     : settings_(settings),
@@ -31,12 +43,19 @@ void LpvAffineMpc::Reset() {
 }
 
 const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
-  task_.Begin(input.z, input.obstacles);
-  CompareScheduling();
   plan_.iterations = 0;
+  plan_.scheduling_error = 0.0;
   plan_.active_trust_rows = 0;
   plan_.largest_slack = 0.0;
   plan_.relaxation = {};
+  // A place on the course or a side that comes of such a value would be one by chance, and stay.
+  if (!IsFinite(input)) {
+    plan_.status = SolverStatus::kNumericalFailure;
+    ShiftPrediction();
+    return plan_;
+  }
+  task_.Begin(input.z, input.obstacles);
+  CompareScheduling();
   if (task_.waiting()) {
     Hold(input.u_previous);
   } else {
@@ -67,7 +86,6 @@ void LpvAffineMpc::CompareScheduling() {
   constexpr double kPoor = 0.5, kGood = 0.25;      // of the present radii
   constexpr double kNarrower = 0.8, kWider = 1.1;  // per step
   constexpr double kNarrowest = 0.5, kWidest = 2.0;
-  plan_.scheduling_error = 0.0;
   if (!has_prediction_) return;
   for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
     const double error = std::abs(task_.z()[kScheduledStates[j]] - z_hat_[0][kScheduledStates[j]]);
@@ -112,6 +130,10 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
     has_prediction_ = true;
     if (change <= settings_.converged) break;
   }
+  ShiftPrediction();
+}
+
+void LpvAffineMpc::ShiftPrediction() {
   std::shift_left(z_hat_.begin(), z_hat_.end(), 1);
   std::shift_left(u_hat_.begin(), u_hat_.end(), 1);
 }

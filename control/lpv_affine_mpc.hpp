@@ -49,6 +49,7 @@ class LpvAffineMpc final : public Controller {
   void CompareScheduling();
   void Predict();
   void Solve(const ControllerInput& input);
+  void ShiftPrediction();
   [[nodiscard]] bool BuildQp(const Input& u_previous);
   [[nodiscard]] bool AddInputRows(const Input& u_previous, int i);
   [[nodiscard]] bool AddFrictionRows(int i);

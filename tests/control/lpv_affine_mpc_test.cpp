@@ -173,5 +173,30 @@ TEST(LpvAffineMpc, ObstaclesThatDoNotFitAreNotIgnored) {
   EXPECT_NE(loop.Ask().status, SolverStatus::kSolved);
 }
 
+TEST(LpvAffineMpc, WhatIsNotFiniteFailsAndTheNextGoodStepRecovers) {
+  BusyRoad loop;
+  for (const bool warm : {false, true}) {
+    while (warm && loop.s() < 20.0) loop.Drive(loop.Ask());
+    const auto expect_failure = [&](double& entry) {
+      const double good = entry;
+      for (const double bad :
+           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        entry = bad;
+        EXPECT_EQ(loop.Ask().status, SolverStatus::kNumericalFailure);
+      }
+      entry = good;
+      const Plan& plan = loop.Ask();
+      EXPECT_EQ(plan.status, SolverStatus::kSolved);
+      EXPECT_TRUE(plan.u[0].allFinite());
+    };
+    for (int j = 0; j < kStates; ++j) expect_failure(loop.z()[j]);
+    for (int j = 0; j < kInputs; ++j) expect_failure(loop.u()[j]);
+    for (double Obstacle::*member : {&Obstacle::X, &Obstacle::Y, &Obstacle::r_x, &Obstacle::r_y,
+                                     &Obstacle::heading, &Obstacle::velocity_X, &Obstacle::velocity_Y}) {
+      expect_failure(loop.obstacles()[0].*member);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace control
