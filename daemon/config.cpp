@@ -233,4 +233,8 @@ const char* ControllerName(ControllerKind kind) {
   return kControllerNames.at(static_cast<std::size_t>(kind));
 }
 
+std::vector<std::string> ControllerNames() {
+  return {kControllerNames.begin(), kControllerNames.end()};
+}
+
 }  // namespace lpvmpcd

@@ -74,6 +74,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/course.hpp"
 #include "control/lpv_affine_mpc.hpp"
@@ -110,6 +111,7 @@ void SelectLockstep(Config& config);
 // Choice of a controller by its name, as in the file. Throws std::invalid_argument.
 void SelectController(Config& config, const std::string& name);
 [[nodiscard]] const char* ControllerName(ControllerKind kind);
+[[nodiscard]] std::vector<std::string> ControllerNames();  // of all kinds
 
 // N of the controller chosen.
 [[nodiscard]] int HorizonOf(const Config& config);

@@ -17,7 +17,7 @@ _lpvmpcd() {
     --config | --scenario) _filedir toml && return ;;
     --log | -o | --output) _filedir && return ;;
     --out | --scenarios) _filedir -d && return ;;
-    --horizon | --repeat | --jobs | --timeout) return ;; # a number
+    --horizon | --repeat | --jobs | --timeout | --count | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers
   esac
 
   # The command so far: each word that names a command of the one before it.
@@ -30,6 +30,8 @@ _lpvmpcd() {
   done
   if [[ $cur == -* ]]; then
     _lpvmpcd_offer "$(_parse_help "${words[0]}" "${path[*]} --help")"
+  elif [[ ${path[*]} == "sweep merge" ]]; then
+    _filedir
   elif [[ -n $commands ]]; then
     _lpvmpcd_offer "$commands"
   elif [[ ${path[*]} == decode ]]; then

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <stdexcept>
 
 #include "daemon/violation_text.hpp"
 
@@ -72,10 +71,7 @@ DriveFigures MeasureDrive(const sim::Scenario& scenario, const lpvmpcd::Config& 
   Meter meter(weights, config.mpc.t_s);
   const ClosedLoopHooks hooks{.frame = frame,
                               .step = [&](const StepObservation& observed) { meter.Take(observed); }};
-  DriveFigures figures = meter.Result(DriveClosedLoop(scenario, config, route, hooks));
-  if (figures.step_seconds.empty())
-    throw std::runtime_error(scenario.name + ": the controller was never engaged");
-  return figures;
+  return meter.Result(DriveClosedLoop(scenario, config, route, hooks));
 }
 
 std::string ToText(const FirstFailure& failure) {

@@ -32,9 +32,11 @@ struct DriveFigures {
   double cost = 0.0;               // Σ |z − z_ref|²_Q + |u|²_R of what was measured and applied
   double rms_steering_rate = 0.0;  // [rad/s]
   double rms_jerk = 0.0;           // [m/s³]
+
+  [[nodiscard]] bool engaged() const { return !step_seconds.empty(); }  // any control step was taken
 };
 
-// Drives as DriveClosedLoop does, whose errors are its own; and throws std::runtime_error if no control step was taken.
+// Drives as DriveClosedLoop does, whose errors are its own.
 [[nodiscard]] DriveFigures MeasureDrive(const sim::Scenario& scenario, const lpvmpcd::Config& config,
                                         const config::RouteFile& route, const CostWeights& weights,
                                         const std::function<void(const can::Frame&)>& frame = nullptr);

@@ -3,19 +3,25 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "config/text_file.hpp"
+#include "daemon/config.hpp"
 #include "tools/bench_step.hpp"
 #include "tools/decode.hpp"
 #include "tools/paper/paper.hpp"
 #include "tools/report.hpp"
 #include "tools/run.hpp"
+#include "tools/sweep/scenario_seed.hpp"
+#include "tools/sweep/sweep.hpp"
 
 namespace {
 
@@ -54,6 +60,23 @@ void RequireOption(const CLI::App& command, const char* option) {
   if (command.parsed() && command.count(option) == 0) throw CLI::RequiredError(option);
 }
 
+// "--speed LO HI" and "--mu LO HI".
+void AddRanges(CLI::App& command, tools::SweepRanges& ranges) {
+  const auto add = [&command](const char* option, tools::Interval& range, const std::string& what) {
+    command
+        .add_option_function<std::vector<double>>(
+            option, [&range](const std::vector<double>& ends) { range = {.low = ends[0], .high = ends[1]}; },
+            what)
+        ->type_name("LO HI")
+        ->expected(2)
+        ->default_str(fmt::format("{} {}", range.low, range.high));
+  };
+  add("--speed", ranges.speed, "target speeds of a sweep [m/s]");
+  add("--mu", ranges.mu, "friction coefficients of a sweep");
+}
+
+const CLI::Range kSeeds(std::uint64_t{0}, tools::kSeedEnd - 1);
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,12 +87,19 @@ int main(int argc, char** argv) {
       "output.");
   app.set_version_flag("--version", "lpvmpc " LPVMPC_VERSION);
 
+  const std::string controllers = fmt::format("{}", fmt::join(lpvmpcd::ControllerNames(), ", "));
   tools::RunOptions run;
   CLI::App* run_command = app.add_subcommand("run", "drive a scenario in memory, without a bus");
-  run_command->add_option("--scenario", run.scenario, "scenario in TOML; required");
-  run_command->add_option("--config", run.config, "daemon's configuration, instead of the scenario's");
-  run_command->add_option("--controller", run.controller,
-                          "lpv, lpv-standard or nmpc, instead of the configuration's");
+  CLI::Option* scenario = run_command->add_option("--scenario", run.scenario, "scenario in TOML");
+  CLI::Option* sweep_seed =
+      run_command->add_option("--sweep-seed", run.sweep_seed, "instead: seed of a scenario of a sweep")
+          ->check(kSeeds)
+          ->excludes(scenario);
+  AddRanges(*run_command, run.ranges);
+  for (const char* range : {"--speed", "--mu"}) run_command->get_option(range)->needs(sweep_seed);
+  run_command->add_option("--config", run.config, "daemon's configuration, instead of the scenario's")
+      ->excludes(sweep_seed);
+  run_command->add_option("--controller", run.controller, controllers + ", instead of the configuration's");
   run_command->add_option("--log", run.log, "write every frame to this candump log");
   run_command
       ->add_option("--out", run.out,
@@ -94,9 +124,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   step_command->add_flag("--json", bench.json, "figures as JSON");
 
+  const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   tools::PaperOptions paper;
   paper.scenarios = Scenarios("paper");
-  paper.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  paper.jobs = processors;
   CLI::App* paper_command =
       app.add_subcommand("paper", "the paper's comparisons, and whether its claims hold");
   paper_command->add_option("--out", paper.out,
@@ -113,6 +144,36 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   paper_command->add_flag("--json", paper.json, "all figures as JSON");
 
+  tools::SweepOptions sweep;
+  sweep.jobs = processors;
+  sweep.setup.controllers = lpvmpcd::ControllerNames();
+  CLI::App* sweep_command =
+      app.add_subcommand("sweep", "drive many scenarios drawn by chance")->require_subcommand(0, 1);
+  sweep_command->add_option("--count", sweep.setup.count, "scenarios; required")
+      ->check(CLI::Range(1, 1'000'000));
+  sweep_command->add_option("--seed", sweep.setup.seed, "of the sweep; required")->check(kSeeds);
+  AddRanges(*sweep_command, sweep.setup.ranges);
+  sweep_command->add_option("--controller", sweep.setup.controllers, "one or several of " + controllers)
+      ->default_str("all");
+  sweep_command->add_option("--jobs", sweep.jobs, "processes that drive")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  sweep_command->add_option_function<std::string>(
+      "--shard", [&sweep](const std::string& text) { sweep.shard = tools::ParseShard(text); },
+      "i/n: drive the i-th of n parts alone and write it, for sweep merge");
+  sweep_command->add_option(
+      "--out", sweep.out,
+      "write sweep.json, timing.json, report.json and report.html into this folder; with --shard, "
+      "the part to this file");
+  sweep_command->add_flag("--json", sweep.json, "all figures as JSON");
+
+  tools::SweepMergeOptions merge;
+  CLI::App* merge_command = sweep_command->add_subcommand("merge", "join the parts of a sweep");
+  merge_command->add_option("FILE", merge.parts, "parts, as sweep --shard wrote them; required");
+  merge_command->add_option("--out", merge.out,
+                            "write sweep.json, timing.json, report.json and report.html into this folder");
+  merge_command->add_flag("--json", merge.json, "all figures as JSON");
+
   tools::ReportOptions report;
   CLI::App* report_command = app.add_subcommand("report", "a page about a run, for any browser");
   report_command->add_option("RUN_DIR", report.run_dir, "folder of a drive or of lpvmpc paper; required");
@@ -122,10 +183,15 @@ int main(int argc, char** argv) {
     try {
       app.parse(argc, argv);
       if (app.get_subcommands().empty())
-        throw CLI::RequiredError("a command: run, decode, bench, paper or report");
+        throw CLI::RequiredError("a command: run, decode, bench, paper, sweep or report");
       if (bench_command->parsed() && !step_command->parsed())
         throw CLI::RequiredError("a command: bench step");
-      RequireOption(*run_command, "--scenario");
+      if (!run.sweep_seed) RequireOption(*run_command, "--scenario");
+      if (!merge_command->parsed()) {
+        RequireOption(*sweep_command, "--count");
+        RequireOption(*sweep_command, "--seed");
+      }
+      RequireOption(*merge_command, "FILE");
       RequireOption(*report_command, "RUN_DIR");
       RequireOption(*report_command, "--output");
     } catch (const CLI::ParseError& error) {
@@ -133,6 +199,14 @@ int main(int argc, char** argv) {
     }
     if (run_command->parsed()) return Finish(tools::Run(run, std::cout));
     if (decode_command->parsed()) return Decode(log);
+    if (merge_command->parsed()) {
+      tools::MergeSweep(merge, std::cout);
+      return Finish(0);
+    }
+    if (sweep_command->parsed()) {
+      tools::Sweep(sweep, std::cout);
+      return Finish(0);
+    }
     if (paper_command->parsed()) return Finish(tools::Paper(paper, std::cout));
     if (report_command->parsed()) {
       tools::Report(report);

@@ -11,6 +11,8 @@ std::unique_ptr<control::Controller> MakeController(const lpvmpcd::Config& confi
     const control::MpcSettings& shared = config.mpc;
     control::NmpcSettings settings;
     static_cast<control::MpcSettings&>(settings) = shared;
+    settings.max_cpu_time =
+        1e6;  // what a computer takes for a step must not change the drive: its iterations end it
     return std::make_unique<control::Nmpc>(config.vehicle, settings);
   }
   return lpvmpcd::MakeController(config, course);

@@ -16,6 +16,9 @@
 #include "tools/drive_record.hpp"
 #include "tools/report_data.hpp"
 #include "tools/report_page.hpp"
+#include "tools/sweep/random_scenario.hpp"
+#include "tools/sweep/scenario_seed.hpp"
+#include "tools/sweep/sweep_config.hpp"
 #include "tools/write_file.hpp"
 
 namespace tools {
@@ -34,12 +37,34 @@ ordered_json ParseJson(const std::filesystem::path& file) {
 struct DriveFile {
   sim::Scenario scenario;
   lpvmpcd::Config config;
+  config::RouteFile road;
 };
+
+DriveFile LoadSweepDrive(const config::TomlTable& table) {
+  const auto seed =
+      static_cast<std::uint64_t>(table.Number("sweep_seed", {0.0, static_cast<double>(kSeedEnd - 1)}));
+  const auto interval = [&](const char* key) {
+    const std::vector<double> ends = table.Numbers(key, 2);
+    return Interval{.low = ends[0], .high = ends[1]};
+  };
+  const SweepRanges ranges{.speed = interval("speed"), .mu = interval("mu")};
+  const std::string controller = table.Text("controller");
+  table.RefuseUnknownKeys();
+  try {
+    CheckRanges(ranges);
+    const RandomScenario drawn = DrawScenario(seed, ranges);
+    return {.scenario = drawn.scenario, .config = ConfigFor(controller, ranges), .road = drawn.route};
+  } catch (const std::invalid_argument& error) {
+    throw table.Error("sweep_seed", error.what());
+  }
+}
 
 DriveFile LoadDriveFile(const std::filesystem::path& file) {
   const config::TomlTable table = config::TomlTable::Read(file);
-  DriveFile drive{.scenario = sim::LoadScenario(table.Path("scenario")),
-                  .config = lpvmpcd::LoadConfig(table.Path("config"))};
+  if (table.Has("sweep_seed")) return LoadSweepDrive(table);
+  const sim::Scenario scenario = sim::LoadScenario(table.Path("scenario"));
+  const lpvmpcd::Config config = lpvmpcd::LoadConfig(table.Path("config"));
+  DriveFile drive{.scenario = scenario, .config = config, .road = config::LoadRoute(config.route)};
   if (table.Has("controller")) {
     try {
       lpvmpcd::SelectController(drive.config, table.Text("controller"));
@@ -126,7 +151,6 @@ ordered_json FansSection(const DriveRecord& record, int horizon) {
 
 ordered_json DrivePage(const std::filesystem::path& run_dir) {
   const DriveFile drive = LoadDriveFile(run_dir / "drive.toml");
-  const config::RouteFile road = config::LoadRoute(drive.config.route);
   const dbc::VehicleBus bus = lpvmpcd::OpenBus(drive.config);
   const DriveRecord record = ReadLog(run_dir / "candump.log", bus, drive.config.mpc.t_s);
   const std::string controller = lpvmpcd::ControllerName(drive.config.controller);
@@ -150,14 +174,17 @@ ordered_json DrivePage(const std::filesystem::path& run_dir) {
       std::ranges::any_of(record.samples, [](const DriveSample& s) { return !s.plan.empty(); });
   if (!record.obstacles.empty() && plans_told)
     sections.push_back(FansSection(record, lpvmpcd::HorizonOf(drive.config)));
-  return {{"title", drive.scenario.name},
-          {"subtitle", fmt::format("{}{}controller {}, N = {}", drive.scenario.description,
-                                   drive.scenario.description.empty() ? "" : " · ", controller,
-                                   lpvmpcd::HorizonOf(drive.config))},
-          {"roads", {{"road", RoadData(road)}}},
-          {"drives",
-           {{"drive", DriveData(record, {.name = controller, .road_key = "road"}, drive.config, road)}}},
-          {"sections", sections}};
+  return {
+      {"title", drive.scenario.name},
+      {"subtitle",
+       fmt::format("{}{}controller {}, N = {}", drive.scenario.description,
+                   drive.scenario.description.empty() ? "" : " · ", controller, lpvmpcd::HorizonOf(drive.config))},
+      {"roads", {{"road", RoadData(drive.road)}}},
+      {"drives",
+       {{"drive",
+         DriveData(record, {.name = controller, .road_key = "road", .footprint = drive.scenario.footprint},
+                   drive.config, drive.road)}}},
+      {"sections", sections}};
 }
 
 }  // namespace
@@ -181,6 +208,17 @@ void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem:
   text += "scenario = " + path(scenario) + "\nconfig = " + path(config) +
           "\ncontroller = " + quoted(controller) + "\n";
   WriteFile(run_dir / "drive.toml", text);
+}
+
+void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed, const SweepRanges& ranges,
+                         const std::string& controller) {
+  const auto interval = [](const Interval& range) {
+    return ordered_json{range.low, range.high}.dump();  // as in TOML
+  };
+  WriteFile(
+      run_dir / "drive.toml",
+      fmt::format("# A scenario of a sweep.\nsweep_seed = {}\nspeed = {}\nmu = {}\ncontroller = \"{}\"\n",
+                  seed, interval(ranges.speed), interval(ranges.mu), controller));
 }
 
 }  // namespace tools

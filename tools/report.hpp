@@ -5,12 +5,16 @@
 // or, of a single drive, as `lpvmpc run --out` and scripts/drive write them,
 //   candump.log   every frame of the bus
 //   drive.toml    scenario = "…", config = "…": the files that it was driven with, relative paths relative to it;
-//                 controller = "…" if it was not the configuration's
+//                 controller = "…" if it was not the configuration's;
+//                 or of a scenario of a sweep sweep_seed = …, speed = [LO, HI], mu = [LO, HI], controller = "…"
 //   summary.json  what came of it (sim/summary.hpp), if it is there
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include "tools/sweep/sweep_ranges.hpp"
 
 namespace tools {
 
@@ -25,5 +29,7 @@ void Report(const ReportOptions& options);
 // Writes drive.toml. Throws std::runtime_error: it cannot be written.
 void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem::path& scenario,
                     const std::filesystem::path& config, const std::string& controller);
+void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed, const SweepRanges& ranges,
+                         const std::string& controller);
 
 }  // namespace tools

@@ -12,8 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// The vehicle drawn for scale: the controllers know a point. Axles from the parameters, overhangs and width of a
-// middle-sized car [m].
+// Of a middle-sized car about its axles [m].
 constexpr double kOverhang = 0.9;
 constexpr double kWidth = 1.8;
 
@@ -40,6 +39,13 @@ auto IfSolving(const Value& value) {
   return [value](const DriveSample& sample) {
     return sample.status.solver_status == dbc::SolverStatus::kNone ? std::nan("") : value(sample);
   };
+}
+
+ordered_json OutlineData(const control::Footprint& footprint, const control::VehicleParameters& vehicle) {
+  if (footprint.front + footprint.rear + footprint.half_width > 0.0) {
+    return {{"front", footprint.front}, {"rear", footprint.rear}, {"width", 2.0 * footprint.half_width}};
+  }
+  return {{"front", vehicle.l_f + kOverhang}, {"rear", vehicle.l_r + kOverhang}, {"width", kWidth}};
 }
 
 ordered_json SeriesData(const DriveRecord& record, const lpvmpcd::Config& config,
@@ -137,10 +143,7 @@ ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const
           {"t_s", config.mpc.t_s},
           {"road", label.road_key},
           {"obstacles", obstacles},
-          {"outline",
-           {{"front", config.vehicle.l_f + kOverhang},
-            {"rear", config.vehicle.l_r + kOverhang},
-            {"width", kWidth}}},
+          {"outline", OutlineData(label.footprint, config.vehicle)},
           {"limits",
            {{"delta", {Rounded(lo[control::kDelta], 4), Rounded(hi[control::kDelta], 4)}},
             {"a", {lo[control::kAcceleration], hi[control::kAcceleration]}}}},

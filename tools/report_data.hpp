@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "config/route_file.hpp"
+#include "control/footprint.hpp"
 #include "daemon/config.hpp"
 #include "tools/drive_record.hpp"
 
@@ -14,8 +15,9 @@ namespace tools {
 [[nodiscard]] nlohmann::ordered_json RoadData(const config::RouteFile& road);
 
 struct DriveLabel {
-  std::string name;      // in legends
-  std::string road_key;  // of its road in the page's data
+  std::string name;                   // in legends
+  std::string road_key;               // of its road in the page's data
+  control::Footprint footprint = {};  // of the vehicle; a point is drawn as a middle-sized car, for scale
 };
 
 // `config` and `road` are those that the drive was driven with.

@@ -6,19 +6,55 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "can/candump_log.hpp"
 #include "tools/closed_loop.hpp"
 #include "tools/report.hpp"
 #include "tools/scenario_config.hpp"
+#include "tools/sweep/random_scenario.hpp"
+#include "tools/sweep/sweep_config.hpp"
 #include "tools/write_file.hpp"
 
 namespace tools {
+namespace {
 
-int Run(const RunOptions& options, std::ostream& out) {
+struct Task {
+  sim::Scenario scenario;
+  lpvmpcd::Config config;
+  config::RouteFile route;
+};
+
+Task LoadTask(const RunOptions& options) {
+  if (options.sweep_seed) {
+    CheckRanges(options.ranges);
+    const RandomScenario drawn = DrawScenario(*options.sweep_seed, options.ranges);
+    return {.scenario = drawn.scenario,
+            .config = ConfigFor(options.controller.empty() ? "lpv" : options.controller, options.ranges),
+            .route = RouteFor(drawn)};
+  }
   const sim::Scenario scenario = sim::LoadScenario(options.scenario);
   lpvmpcd::Config config = LoadConfigFor(scenario, options.scenario, options.config);
   if (!options.controller.empty()) lpvmpcd::SelectController(config, options.controller);
+  const config::RouteFile route = config::LoadRoute(config.route);
+  return {.scenario = scenario, .config = std::move(config), .route = route};
+}
+
+void WriteDriveFileOf(const RunOptions& options, const Task& task) {
+  const std::string controller = lpvmpcd::ControllerName(task.config.controller);
+  if (options.sweep_seed) {
+    WriteSweepDriveFile(options.out, *options.sweep_seed, options.ranges, controller);
+  } else {
+    WriteDriveFile(options.out, options.scenario,
+                   options.config.empty() ? task.scenario.daemon_config : options.config, controller);
+  }
+}
+
+}  // namespace
+
+int Run(const RunOptions& options, std::ostream& out) {
+  const Task task = LoadTask(options);
+  const lpvmpcd::Config& config = task.config;
 
   const bool out_folder = !options.out.empty();
   const std::filesystem::path log_file = out_folder ? options.out / "candump.log" : options.log;
@@ -36,7 +72,7 @@ int Run(const RunOptions& options, std::ostream& out) {
     };
   }
   const auto start = std::chrono::steady_clock::now();
-  const sim::Summary summary = DriveClosedLoop(scenario, config, hooks);
+  const sim::Summary summary = DriveClosedLoop(task.scenario, config, task.route, hooks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (log.is_open() && !log.flush()) {
     throw std::runtime_error(log_file.string() + ": cannot be written: " + std::strerror(errno));
@@ -44,9 +80,7 @@ int Run(const RunOptions& options, std::ostream& out) {
   if (out_folder) {
     std::filesystem::remove(options.out / "report.json");  // of another run, which the report would show
     WriteFile(options.out / "summary.json", sim::ToJson(summary));
-    WriteDriveFile(options.out, options.scenario,
-                   options.config.empty() ? scenario.daemon_config : options.config,
-                   lpvmpcd::ControllerName(config.controller));
+    WriteDriveFileOf(options, task);
     Report({.run_dir = options.out, .output = options.out / "report.html"});
   }
 

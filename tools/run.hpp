@@ -1,16 +1,22 @@
 // `lpvmpc run`: a scenario driven by the daemon's control loop in memory.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 #include <string>
+
+#include "tools/sweep/sweep_ranges.hpp"
 
 namespace tools {
 
 struct RunOptions {
-  std::filesystem::path scenario;
-  std::filesystem::path config;  // of the daemon; empty: the one that the scenario names
-  std::string controller;        // empty: the configuration's
+  std::filesystem::path scenario;           // empty: `sweep_seed` names one
+  std::optional<std::uint64_t> sweep_seed;  // of a scenario of a sweep (tools/sweep/random_scenario.hpp)
+  SweepRanges ranges;                       // of that sweep
+  std::filesystem::path config;  // of the daemon; empty: the one that the scenario names, or that of sweeps
+  std::string controller;        // empty: the configuration's; of a sweep's scenario: lpv
   std::filesystem::path log;     // candump log of every frame; empty: none
   std::filesystem::path out;  // folder for candump.log, summary.json, drive.toml and report.html; empty: none
   bool json = false;

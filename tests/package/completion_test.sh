@@ -39,7 +39,7 @@ Completes 'a.toml drive' lpvmpcd --config ''
 Completes 'lpv lpv-standard' lpvmpcd --controller ''
 Completes '--scenario' lpvmpc-sim --interface vcan0 --s
 Completes 'a.toml drive' lpvmpc-sim --scenario ''
-Completes 'bench decode paper report run' lpvmpc ''
+Completes 'bench decode paper report run sweep' lpvmpc ''
 Completes 'report run' lpvmpc r
 Completes 'step' lpvmpc bench ''
 Completes '--horizon' lpvmpc bench step --hor
@@ -50,6 +50,9 @@ Completes 'drive' lpvmpc run --out ''
 Completes 'a.log drive' lpvmpc decode ''
 Completes 'drive' lpvmpc report ''
 Completes '' lpvmpc bench step --repeat ''
+Completes 'merge' lpvmpc sweep ''
+Completes 'a.log a.toml a.txt drive' lpvmpc sweep merge ''
+Completes '' lpvmpc sweep --shard ''
 
 for program in lpvmpcd lpvmpc-sim lpvmpc; do
   complete -p "$program" | grep -q -- '-F _lpvmpcd' || { echo "FAILED: no completion of $program" >&2; failures=1; }

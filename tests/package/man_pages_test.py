@@ -11,7 +11,10 @@ import unittest
 
 SOURCE, PROGRAMS = (pathlib.Path(folder) for folder in sys.argv[1:])
 COMMANDS = [("lpvmpcd", ""), ("lpvmpc-sim", "")]
-COMMANDS += [("lpvmpc", command) for command in ("", "run", "decode", "bench", "bench step", "paper", "report")]
+COMMANDS += [
+    ("lpvmpc", command)
+    for command in ("", "run", "decode", "bench", "bench step", "paper", "sweep", "sweep merge", "report")
+]
 PAGES = {"lpvmpcd": "lpvmpcd.8", "lpvmpc-sim": "lpvmpc-sim.8", "lpvmpc": "lpvmpc.1"}
 
 
@@ -71,7 +74,7 @@ class ManPages(unittest.TestCase):
     def test_every_command_of_help_has_its_section(self):
         told = re.findall(r"^  ([a-z]+) ", help_of("lpvmpc", "").split("Subcommands:")[1], flags=re.M)
         headings = [heading.split()[1].lower() for heading in sections("lpvmpc.1") if heading.startswith("LPVMPC ")]
-        self.assertEqual(headings, told)
+        self.assertEqual(list(dict.fromkeys(headings)), told)
 
     def test_every_key_of_the_configuration_is_on_the_page_with_its_default_and_range(self):
         page = {

@@ -8,6 +8,7 @@
 
 #include "tests/support/process.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tools/sweep/scenario_seed.hpp"
 
 namespace {
 
@@ -43,7 +44,7 @@ TEST(Lpvmpc, UnknownOptionIsNotHiddenByWhatElseIsMissing) {
 }
 
 TEST(Lpvmpc, WhatIsRequiredIsNamed) {
-  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper or report"));
+  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep or report"));
   ExpectOneLine({LPVMPC, "bench"}, HasSubstr("bench step"));
   ExpectOneLine({LPVMPC, "run"}, HasSubstr("--scenario"));
   ExpectOneLine({LPVMPC, "report", "-o", "x.html"}, HasSubstr("RUN_DIR"));
@@ -80,6 +81,66 @@ TEST(Lpvmpc, RunLeavesAFolderThatReportTakes) {
   EXPECT_GT(std::filesystem::file_size(page), 100'000u);
   ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--out", run, "--log", page},
                 HasSubstr("--log"));
+}
+
+TEST(Lpvmpc, SweepRefusesWhatCannotBe) {
+  const auto expect = [](std::vector<std::string> options, const testing::Matcher<std::string>& line) {
+    options.insert(options.begin(), {LPVMPC, "sweep"});
+    ExpectOneLine(options, line);
+  };
+  expect({"--seed", "1"}, HasSubstr("--count"));
+  expect({"--count", "1"}, HasSubstr("--seed"));
+  expect({"--count", "0", "--seed", "1"}, HasSubstr("--count"));
+  expect({"--count", "1", "--seed", "-1"}, HasSubstr("--seed"));
+  expect({"--count", "1", "--seed", "9007199254740992"}, HasSubstr("--seed"));
+  expect({"--count", "1", "--seed", "1", "--jobs", "0"}, HasSubstr("--jobs"));
+  expect({"--count", "1", "--seed", "1", "--speed", "9"}, HasSubstr("--speed"));
+  expect({"--count", "1", "--seed", "1", "--speed", "9", "8"}, HasSubstr("--speed: 9 8 must be LO HI"));
+  expect({"--count", "1", "--seed", "1", "--mu", "0.4", "1.3"}, HasSubstr("--mu: 0.4 1.3 must be LO HI"));
+  expect({"--count", "1", "--seed", "1", "--shard", "3/2"}, HasSubstr("--shard: 3/2 must be i/n"));
+  expect({"--count", "1", "--seed", "1", "--controller", "pid"}, AllOf(HasSubstr("pid"), HasSubstr("nmpc")));
+  expect({"merge"}, HasSubstr("FILE"));
+  expect({"merge", "/nowhere/part"}, HasSubstr("/nowhere/part"));
+}
+
+TEST(Lpvmpc, RunDrivesAScenarioOfASweepAgain) {
+  const std::vector<std::string> sweep{LPVMPC, "sweep", "--count",      "1",  "--seed", "4", "--speed",
+                                       "9",    "10",    "--controller", "lpv"};
+  std::vector<std::string> as_json = sweep;
+  as_json.emplace_back("--json");
+  const std::string json = test_support::Run(as_json).out;
+  const auto value = [](const std::string& text, const std::string& key) {
+    const std::size_t at = text.find('"' + key + "\": ");
+    return at == std::string::npos ? "no " + key : text.substr(at, text.find('\n', at) - at);
+  };
+  const std::string seed = std::to_string(tools::ScenarioSeed(4, 0));
+  EXPECT_THAT(json, HasSubstr("\"seed\": " + seed + ","));
+  const std::vector<std::string> run{LPVMPC, "run", "--sweep-seed", seed, "--speed", "9", "10"};
+  std::vector<std::string> summary = run;
+  summary.emplace_back("--json");
+  const std::string again = test_support::Run(summary).out;
+  for (const char* key : {"steps", "infeasible_steps", "min_clearance_m", "min_road_margin_m"})
+    EXPECT_EQ(value(again, key), value(json.substr(json.find("\"drives\"")), key));
+
+  const test_support::TempDir folder;
+  std::vector<std::string> out = run;
+  out.insert(out.end(), {"--out", (folder.path() / "run").string()});
+  EXPECT_LT(test_support::Run(out).status, 2);
+  const std::string page = (folder.path() / "page.html").string();
+  const test_support::Outcome report =
+      test_support::Run({LPVMPC, "report", (folder.path() / "run").string(), "-o", page});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_GT(std::filesystem::file_size(page), 100'000u);
+}
+
+TEST(Lpvmpc, RunTakesAScenarioOrASweepsSeedNotBoth) {
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--sweep-seed", "1"},
+                HasSubstr("--sweep-seed"));
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--speed", "8", "9"},
+                HasSubstr("--sweep-seed"));
+  ExpectOneLine({LPVMPC, "run", "--sweep-seed", "1", "--config", kDemo + "/lpvmpcd.toml"},
+                HasSubstr("--config"));
+  ExpectOneLine({LPVMPC, "run", "--sweep-seed", "1", "--speed", "1", "9"}, HasSubstr("--speed: 1 9 must be"));
 }
 
 TEST(Lpvmpc, MissingScenarioIsNamed) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <numeric>
+#include <stdexcept>
 
 #include "daemon/assembly.hpp"
 
@@ -45,6 +46,8 @@ ComparedDrive Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config
     DriveRecorder recorder(bus, config.mpc.t_s);
     drive.figures =
         MeasureDrive(scenario, config, road, weights, [&](const can::Frame& frame) { recorder.Take(frame); });
+    if (!drive.figures.engaged())
+      throw std::runtime_error(scenario.name + ": the controller was never engaged");
     drive.record = recorder.record();
     const std::vector<double>& seconds = drive.figures.step_seconds;
     if (least.empty()) least = seconds;

@@ -1,6 +1,7 @@
 #include "tools/paper/feasibility.hpp"
 
 #include <fmt/format.h>
+#include <stdexcept>
 
 #include "config/toml_table.hpp"
 #include "daemon/assembly.hpp"
@@ -16,6 +17,7 @@ FeasibilityDrive Drive(const sim::Scenario& scenario, lpvmpcd::Config config, co
   DriveRecorder recorder(bus, config.mpc.t_s);
   const DriveFigures figures = MeasureDrive(scenario, config, road, {.Q = config.mpc.Q, .R = config.mpc.R},
                                             [&](const can::Frame& frame) { recorder.Take(frame); });
+  if (!figures.engaged()) throw std::runtime_error(scenario.name + ": the controller was never engaged");
   const DriveRecord& record = recorder.record();
   const std::size_t end =
       figures.first_failure ? SampleOfStep(record, figures.first_failure->step) : record.samples.size();

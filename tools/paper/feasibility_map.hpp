@@ -29,9 +29,8 @@ struct FeasibilityMap {
 
 [[nodiscard]] std::size_t MapDrives();  // how many drives the map takes
 
-// In `jobs` processes at a time; the bar goes on by one for each drive. The map does not depend on `jobs`, but for cells in
-// which a step of the NMPC meets its limit of CPU time. Throws
-// std::runtime_error: a process failed.
+// In `jobs` processes at a time; the bar goes on by one for each drive. The map does not depend on `jobs`.
+// Throws std::runtime_error: a process failed.
 [[nodiscard]] FeasibilityMap MapFeasibility(int jobs, ProgressBar& bar);
 
 }  // namespace tools

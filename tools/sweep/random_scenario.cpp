@@ -51,7 +51,7 @@ std::vector<control::RoutePiece> DrawRoad(Random& random, double speed, double d
 }
 
 void DrawVehicle(Random& random, const Interval& mu, sim::Scenario& scenario) {
-  scenario.footprint = {.front = 1.95, .rear = 2.30, .half_width = 0.90};
+  scenario.footprint = kVehicleFootprint;
   sim::PlantParameters& plant = scenario.plant;
   plant.tyre = sim::Tyre::kSaturating;
   plant.mu = random.Uniform(mu.low, mu.high);

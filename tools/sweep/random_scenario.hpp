@@ -17,6 +17,9 @@
 
 namespace tools {
 
+// Of every scenario.
+inline constexpr control::Footprint kVehicleFootprint{.front = 1.95, .rear = 2.30, .half_width = 0.90};
+
 struct RandomScenario {
   sim::Scenario scenario;  // its description is one line that tells what was drawn
   // The controller's: that of the scenario and straight on, so that a long horizon, too, plans up to the scenario's end.

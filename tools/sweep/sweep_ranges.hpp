@@ -18,4 +18,7 @@ struct SweepRanges {
 inline constexpr Interval kSpeedLimits{3.0, 40.0};
 inline constexpr Interval kMuLimits{0.1, 1.2};
 
+// Throws std::invalid_argument, in the words of the command line, if a range leaves these limits or is reversed.
+void CheckRanges(const SweepRanges& ranges);
+
 }  // namespace tools

@@ -1,0 +1,31 @@
+#include "tools/sweep/sweep_config.hpp"
+
+#include <algorithm>
+
+namespace tools {
+namespace {
+
+// By which a front corner stands out when the vehicle is 0.1 rad askew [m].
+constexpr double kCornerSwing = 0.2;
+
+}  // namespace
+
+lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& ranges) {
+  lpvmpcd::Config config;
+  lpvmpcd::SelectController(config, controller);
+  config.mpc.horizon = config.controller == lpvmpcd::ControllerKind::kNmpc ? 40 : 8;
+  config.mpc.obstacle_margin += kVehicleFootprint.half_width + kCornerSwing;
+  config.service.interface = "vcan0";  // in logs
+  // Vehicles start at 0.9 of the target speed, which may be below what the daemon asks of a driver.
+  config.loop.engage_min_speed = std::min(config.loop.engage_min_speed, 0.5 * ranges.speed.low);
+  return config;
+}
+
+config::RouteFile RouteFor(const RandomScenario& drawn) {
+  config::RouteFile route = drawn.route;
+  route.road.left -= drawn.scenario.footprint.half_width;
+  route.road.right += drawn.scenario.footprint.half_width;
+  return route;
+}
+
+}  // namespace tools

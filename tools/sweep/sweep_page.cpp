@@ -1,0 +1,125 @@
+#include <array>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "daemon/assembly.hpp"
+#include "tools/drive_record.hpp"
+#include "tools/report_data.hpp"
+#include "tools/sweep/sweep_config.hpp"
+#include "tools/sweep/sweep_result.hpp"
+
+namespace tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kDrawn = 12;    // of the failures
+constexpr std::size_t kListed = 500;  // of the failures; sweep.json has all
+
+std::string OrDash(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
+}
+
+ordered_json TableSection(const SweepResult& result) {
+  ordered_json rows = ordered_json::array();
+  const std::vector<ControllerFigures> table = Tabulate(result);
+  for (std::size_t c = 0; c < table.size(); ++c) {
+    const ControllerFigures& line = table[c];
+    ordered_json row{line.controller};
+    for (const int scenarios : line.outcomes) row.push_back(std::to_string(scenarios));
+    row.push_back(std::to_string(line.passed_of_passable));
+    row.push_back(std::to_string(line.failures_of_possible));
+    row.push_back(fmt::format("{:.3f}", 1e3 * result.times[c].Percentile(0.5)));
+    row.push_back(fmt::format("{:.3f}", 1e3 * result.times[c].Percentile(0.99)));
+    row.push_back(OrDash(line.cost_ratio, 3));
+    row.push_back(OrDash(line.steering_rate, 3));
+    row.push_back(OrDash(line.jerk, 2));
+    rows.push_back(std::move(row));
+  }
+  const int passable = CountWays(result, PossibleWay::kPass), stop = CountWays(result, PossibleWay::kStop);
+  return {
+      {"type", "table"},
+      {"title", "Outcomes"},
+      {"paragraphs",
+       {fmt::format("Any vehicle at all finds a way past the obstacles in {} of {} scenarios; in {} it can "
+                    "only stop before one, in {} neither.",
+                    passable, result.scenarios.size(), stop, CountWays(result, PossibleWay::kNone))}},
+      {"columns",
+       {"controller", "passed", "stopped", "contact", "off the road", "failed",
+        fmt::format("passed of {} passable", passable),
+        fmt::format("failures of {} possible", passable + stop), "step, median [ms]", "step, p99 [ms]",
+        "cost to NMPC", "steering rate, RMS [rad/s]", "jerk, RMS [m/s³]"}},
+      {"rows", rows},
+      {"note",
+       "Failures: contact, off the road, failed. Cost, steering rate and jerk are medians over the drives "
+       "that "
+       "passed, the cost over those that the NMPC passed too."}};
+}
+
+ordered_json FailuresSection(const SweepResult& result) {
+  std::vector<SweepFailure> failures = Failures(result);
+  const std::size_t all = failures.size();
+  failures.resize(std::min(all, kListed));
+  ordered_json rows = ordered_json::array();
+  for (const SweepFailure& failure : failures) {
+    const SweptScenario& scenario = result.scenarios[failure.scenario];
+    const SweepDrive& drive = scenario.drives[failure.controller];
+    rows.push_back(
+        {fmt::format("seed {}: {}; possible: {}", scenario.seed, scenario.description, NameOf(scenario.way)),
+         result.setup.controllers[failure.controller],
+         ordered_json{{"text", NameOf(drive.outcome)}, {"verdict", "bad"}}, drive.why});
+  }
+  const SweepRanges& ranges = result.setup.ranges;
+  return {{"type", "table"},
+          {"title", "Failures"},
+          {"paragraphs",
+           {fmt::format(
+               "To drive one again: lpvmpc run --sweep-seed SEED --speed {} {} --mu {} {} --controller NAME",
+               ranges.speed.low, ranges.speed.high, ranges.mu.low, ranges.mu.high)}},
+          {"columns", {"scenario", "controller", "outcome", "why"}},
+          {"rows", rows},
+          {"note", all > kListed ? fmt::format("The first {} of {}.", kListed, all) : ""}};
+}
+
+// Drives it again and adds its road, its drive and a section that shows them.
+void AddDrawing(const SweepResult& result, const SweepFailure& failure, ordered_json& page) {
+  const SweptScenario& scenario = result.scenarios[failure.scenario];
+  const std::string& controller = result.setup.controllers[failure.controller];
+  const RandomScenario drawn = DrawScenario(scenario.seed, result.setup.ranges);
+  const lpvmpcd::Config config = ConfigFor(controller, result.setup.ranges);
+  const dbc::VehicleBus bus = lpvmpcd::OpenBus(config);
+  DriveRecorder recorder(bus, config.mpc.t_s);
+  const SweepDrive drive =
+      DriveSweepScenario(drawn, result.setup.ranges, controller, [&](const can::Frame& frame) {
+        recorder.Take(frame);
+      }).drive;
+  const std::string road = std::to_string(scenario.seed);
+  const std::string key = road + " " + controller;
+  page["roads"][road] = RoadData(drawn.route);
+  page["drives"][key] = DriveData(
+      recorder.record(), {.name = controller, .road_key = road, .footprint = drawn.scenario.footprint},
+      config, drawn.route);
+  page["sections"].push_back(
+      {{"type", "drives"},
+       {"title", fmt::format("{} by {}: {}", scenario.seed, controller, NameOf(drive.outcome))},
+       {"paragraphs", {scenario.description + ".", drive.why + "."}},
+       {"drives", {key}}});
+}
+
+}  // namespace
+
+ordered_json SweepPage(const SweepResult& result) {
+  ordered_json page{{"title", "Sweep"},
+                    {"subtitle", result.setup.Describe()},
+                    {"roads", ordered_json::object()},
+                    {"drives", ordered_json::object()},
+                    {"sections", {TableSection(result)}}};
+  const std::vector<SweepFailure> worst = WorstFailures(result, kDrawn);
+  if (worst.empty()) return page;
+  page["sections"].push_back(FailuresSection(result));
+  for (const SweepFailure& failure : worst) AddDrawing(result, failure, page);
+  return page;
+}
+
+}  // namespace tools
