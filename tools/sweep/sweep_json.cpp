@@ -83,10 +83,10 @@ SweepSetup SetupOf(const ordered_json& json) {
   const auto interval = [&](const char* key) {
     return Interval{.low = json.at(key).at(0), .high = json.at(key).at(1)};
   };
-  const SweepSetup setup{.seed = json.at("seed"),
-                         .count = json.at("count"),
-                         .ranges = {.speed = interval("speed_m_s"), .mu = interval("mu")},
-                         .controllers = json.at("controllers")};
+  SweepSetup setup{.seed = json.at("seed"),
+                   .count = json.at("count"),
+                   .ranges = {.speed = interval("speed_m_s"), .mu = interval("mu")},
+                   .controllers = json.at("controllers")};
   CheckSetup(setup);
   return setup;
 }
