@@ -74,8 +74,11 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
           H_uu.noalias() += wD * row.D.transpose();
         }
       }
-      if (work.H_uu.compute(H_uu).info() != Eigen::Success) return false;
-      work.K = -work.H_uu.solve(H_ux);
+      const Eigen::LLT<MatrixUU> llt(H_uu);
+      if (llt.info() != Eigen::Success) return false;
+      work.L_inverse = llt.matrixL().solve(MatrixUU::Identity());
+      const MatrixUX L_inverse_H_ux = work.L_inverse * H_ux;
+      work.K.noalias() = -work.L_inverse.transpose() * L_inverse_H_ux;
       work.A_K = stage.A;
       work.A_K.noalias() += stage.B * work.K;
       const MatrixXX PA_K = PA + PB * work.K;
@@ -86,15 +89,16 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
     }
     for (std::size_t j = 0; j < row_count; ++j) {
       const auto& row = stage.rows[j];
-      RowWork& at = work.rows[j];
+      const double w = work.rows[j].w;
+      VectorX& C_K = work.C_K[j];
       if (row.unit >= 0 && row.unit < kNx) {
-        P(row.unit, row.unit) += at.w;
+        P(row.unit, row.unit) += w;
         continue;
       }
-      at.C_K = row.C;
-      if (!terminal) at.C_K.noalias() += work.K.transpose() * row.D;
-      const VectorX wC_K = at.w * at.C_K;
-      P.noalias() += wC_K * at.C_K.transpose();
+      C_K = row.C;
+      if (!terminal) C_K.noalias() += work.K.transpose() * row.D;
+      const VectorX wC_K = w * C_K;
+      P.noalias() += wC_K * C_K.transpose();
     }
   }
   return true;
@@ -131,11 +135,11 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
       if (row.unit >= 0 && row.unit < kNx) {
         work.p[row.unit] += gradient;
       } else {
-        work.p += gradient * at.C_K;
+        work.p += gradient * work.C_K[j];
         h_u += gradient * row.D;
       }
     }
-    if (i < N) work.k = -work.H_uu.solve(h_u);
+    if (i < N) work.k = -work.L_inverse.transpose() * (work.L_inverse * h_u);
   }
   work_[0].dx.setZero();
   work_[0].dpi.setZero();
@@ -159,7 +163,7 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
     };
     side(at.lo, dg + at.depsilon);
     side(at.hi, -dg + at.depsilon);
-    side(at.slack, at.depsilon);
+    if (at.slack.present) side(at.slack, at.depsilon);
   });
 }
 

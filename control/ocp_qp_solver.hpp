@@ -12,7 +12,6 @@
 // Instantiated for <8, 2> (the controllers); include ocp_qp_solver_impl.hpp for other sizes.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <vector>
@@ -86,7 +85,6 @@ class OcpQpSolver {
     double inverse_s = 0.0;  // 1 / (ρ + w_lo + w_hi + w_ε); 0 of a hard row
     double y = 0.0;          // y_lo + y_hi + y_ε − r_epsilon
     double w = 0.0;
-    VectorX C_K = VectorX::Zero();  // C + KᵀD; not used where the row bounds a state alone
     double depsilon = 0.0;
   };
   // Deviations from the base, the optimum without rows, and the recursion's results.
@@ -95,8 +93,9 @@ class OcpQpSolver {
     VectorU base_u, u, du, r_u, k;
     MatrixXX P, A_K;
     MatrixUX K;
-    Eigen::LLT<MatrixUU> H_uu;  // solved with, not inverted: beside a w of 1e10 an inverse has few digits
+    MatrixUU L_inverse;  // of H_uu = L Lᵀ: beside a w of 1e10 the inverse of H_uu has few digits
     std::array<RowWork, kMaxRows> rows;
+    std::array<VectorX, kMaxRows> C_K;  // C + KᵀD; not used where the row bounds a state alone
   };
 
   bool SolveBase(const Qp& qp);

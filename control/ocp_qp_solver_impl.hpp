@@ -119,7 +119,7 @@ bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
     auto& work = work_[i];
     const VectorX p_next = work_[i + 1].P * stage.c + work_[i + 1].p;
     const VectorU h_u = stage.r + stage.B.transpose() * p_next;
-    work.k = -work.H_uu.solve(h_u);
+    work.k = -work.L_inverse.transpose() * (work.L_inverse * h_u);
     work.p = stage.q + work.A_K.transpose() * p_next + work.K.transpose() * stage.r;
   }
   work_[0].base_x = qp.x0;
