@@ -193,17 +193,24 @@ void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& wor
   work.slack.t = work.epsilon = mu / work.slack.lambda;
 }
 
-// From the base.
+// From the base. Where that violates a row with σ > 0, λ_lo + λ_hi may have to rise to σ: μ starts the larger, as
+// steps are short while infeasibility is large beside μ.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::StartCold(const Qp& qp) {
-  constexpr double kStartMu = 1.0;
+  constexpr double kShare = 0.1;  // of the width, where t starts: λ = σ there needs μ = kShare σ
+  constexpr double kMostMu = 100.0;
+  double mu = 1.0;
   for (auto& work : work_) {
     work.x.setZero();
     work.u.setZero();
     work.pi.setZero();
   }
+  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork&) {
+    const bool violated = work.lo.bound > 0.0 || work.hi.bound < 0.0;
+    if (row.exact() && violated) mu = std::clamp(kShare * row.sigma, mu, kMostMu);
+  });
   detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
-    StartRow(row, work, stage.x, stage.u, 0.1, kStartMu, {});
+    StartRow(row, work, stage.x, stage.u, kShare, mu, {});
   });
 }
 
