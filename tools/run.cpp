@@ -29,9 +29,9 @@ Task LoadTask(const RunOptions& options) {
   if (options.sweep_seed) {
     CheckRanges(options.ranges);
     const RandomScenario drawn = DrawScenario(*options.sweep_seed, options.ranges);
-    return {.scenario = drawn.scenario,
-            .config = ConfigFor(options.controller.empty() ? "lpv" : options.controller, options.ranges),
-            .route = RouteFor(drawn)};
+    const std::string controller = options.controller.empty() ? "lpv-affine" : options.controller;
+    const lpvmpcd::Config config = ConfigFor(controller, options.ranges);
+    return {.scenario = drawn.scenario, .config = config, .route = RouteFor(drawn, config)};
   }
   const sim::Scenario scenario = sim::LoadScenario(options.scenario);
   lpvmpcd::Config config = LoadConfigFor(scenario, options.scenario, options.config);

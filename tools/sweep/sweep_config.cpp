@@ -7,6 +7,8 @@ namespace {
 
 // By which a front corner stands out when the vehicle is 0.1 rad askew [m].
 constexpr double kCornerSwing = 0.2;
+// From a command to its effect, dead time and lag of the steering together: the mean of what is drawn [s].
+constexpr double kMeanDelay = 0.05;
 
 }  // namespace
 
@@ -15,14 +17,20 @@ lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& rang
   lpvmpcd::SelectController(config, controller);
   config.mpc.horizon = config.controller == lpvmpcd::ControllerKind::kNmpc ? 40 : 8;
   config.mpc.obstacle_margin += kVehicleFootprint.half_width + kCornerSwing;
+  config.affine.footprint = kVehicleFootprint;
+  config.affine.mu = ranges.mu.low;
+  if (config.controller == lpvmpcd::ControllerKind::kLpvAffine) {
+    config.loop.command_delay = lpvmpcd::FromSeconds(kMeanDelay);
+  }
   config.service.interface = "vcan0";  // in logs
   // Vehicles start at 0.9 of the target speed, which may be below what the daemon asks of a driver.
   config.loop.engage_min_speed = std::min(config.loop.engage_min_speed, 0.5 * ranges.speed.low);
   return config;
 }
 
-config::RouteFile RouteFor(const RandomScenario& drawn) {
+config::RouteFile RouteFor(const RandomScenario& drawn, const lpvmpcd::Config& config) {
   config::RouteFile route = drawn.route;
+  if (config.controller == lpvmpcd::ControllerKind::kLpvAffine) return route;
   route.road.left -= drawn.scenario.footprint.half_width;
   route.road.right += drawn.scenario.footprint.half_width;
   return route;

@@ -55,8 +55,9 @@ TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, const SweepRange
                                    const std::string& controller,
                                    const std::function<void(const can::Frame&)>& frame) {
   const control::MpcSettings weights;
-  const DriveFigures figures = MeasureDrive(drawn.scenario, ConfigFor(controller, ranges), RouteFor(drawn),
-                                            {.Q = weights.Q, .R = weights.R}, frame);
+  const lpvmpcd::Config config = ConfigFor(controller, ranges);
+  const DriveFigures figures =
+      MeasureDrive(drawn.scenario, config, RouteFor(drawn, config), {.Q = weights.Q, .R = weights.R}, frame);
   const sim::Summary& summary = figures.summary;
   const SweepOutcome outcome = OutcomeOf(summary);
   return {.drive = {.outcome = outcome,
