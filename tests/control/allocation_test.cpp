@@ -56,20 +56,23 @@ TEST(Allocations, AreCounted) {
 
 TEST(Allocations, SolverTakesNone) {
   const OcpQp<8, 2> qp = testing::ReadQpInstance(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp");
-  OcpQp<8, 2> infeasible = qp, broken = qp;
+  OcpQp<8, 2> infeasible = qp, exact = qp, broken = qp;
   ASSERT_TRUE(infeasible.stages[4].AddStateBound(2, 90.0, kNoBound));
+  ASSERT_TRUE(exact.stages[4].AddStateBound(2, 90.0, kNoBound, 1.0, 10.0));
   broken.stages[2].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
   OcpQpSolver<8, 2> solver(qp.horizon()), impatient(qp.horizon(), {.max_iterations = 2});
   const OcpQpPoint<8, 2> guess(qp.horizon());
   const std::size_t before = Taken();
   const SolverStatus cold = solver.Solve(qp).status;
   const SolverStatus warm = solver.Solve(qp, &guess).status;
+  const SolverStatus penalised = solver.Solve(exact, &guess).status;
   const SolverStatus proven = solver.Solve(infeasible).status;
   const SolverStatus failed = solver.Solve(broken).status;
   const SolverStatus stopped = impatient.Solve(qp).status;
   EXPECT_EQ(Taken(), before);
   EXPECT_EQ(cold, SolverStatus::kSolved);
   EXPECT_EQ(warm, SolverStatus::kSolved);
+  EXPECT_EQ(penalised, SolverStatus::kSolved);
   EXPECT_EQ(proven, SolverStatus::kInfeasible);
   EXPECT_EQ(failed, SolverStatus::kNumericalFailure);
   EXPECT_EQ(stopped, SolverStatus::kIterationLimit);

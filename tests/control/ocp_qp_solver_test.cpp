@@ -194,6 +194,24 @@ TEST(OcpQpSolver, ExactPenaltyHoldsARowWhoseMultiplierIsBelowIt) {
   }
 }
 
+// Among these are problems in which the predictor and corrector alone go round in a cycle of three steps.
+TEST(OcpQpSolver, ExactPenaltyOfAnySizeIsSolvedFromFarAndNear) {
+  OcpQpSolver<1, 1> solver(1);
+  for (const double rho : {0.0, 1e-3, 1.0, 1e3}) {
+    for (const double hi : {0.49, -3.0, -100.0}) {
+      for (double sigma = 1e-3; sigma < 1e5; sigma *= 1.3) {
+        OcpQp<1, 1> qp = Scalar(0.0);
+        ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, hi, rho, sigma));
+        const QpResult result = solver.Solve(qp);
+        ASSERT_EQ(result.status, SolverStatus::kSolved) << rho << " " << hi << " " << sigma;
+        EXPECT_LE(result.iterations, 30) << rho << " " << hi << " " << sigma;
+        const double x = std::max(hi, (1.0 + hi * rho - sigma) / (2.0 + rho));
+        EXPECT_NEAR(solver.solution().stages[1].x[0], x, 1e-5) << rho << " " << hi << " " << sigma;
+      }
+    }
+  }
+}
+
 TEST(OcpQpSolver, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
   testing::Random random(8);
   int active = 0;
