@@ -16,6 +16,7 @@ struct SpeedLimits {
   double lateral = 3.0;       // in curves [m/s²], > 0
   double acceleration = 1.5;  // [m/s²], > 0
   double deceleration = 2.0;  // [m/s²], > 0
+  double emergency = 5.0;     // deceleration before what cannot be passed [m/s²], > 0
 };
 
 class Course {

@@ -34,7 +34,7 @@ struct BodyRow {
 
 class DrivingTask {
  public:
-  static constexpr std::size_t kMostRows = 10;  // of a step
+  static constexpr std::size_t kMostRows = 16;  // of a step
 
   // `course` must outlive it.
   DrivingTask(const VehicleParameters& vehicle, const Course& course, const LpvAffineSettings& settings);

@@ -9,10 +9,12 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kSmallest = 1e-3;  // semi-axis: a point has no direction to pass it in [m]
+
 // Points p with (p − centre)ᵀ S⁻¹ (p − centre) ≤ 1; the support in direction d is √(dᵀ S d).
 Eigen::Matrix2d ShapeOf(const Obstacle& obstacle, double margin) {
   const Eigen::Matrix2d R = Eigen::Rotation2Dd(obstacle.heading).toRotationMatrix();
-  const Vector2d axes(obstacle.r_x + margin, obstacle.r_y + margin);
+  const Vector2d axes = (Vector2d(obstacle.r_x, obstacle.r_y).array() + margin).max(kSmallest);
   return R * axes.cwiseAbs2().asDiagonal() * R.transpose();
 }
 

@@ -24,7 +24,7 @@
 namespace control {
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
-inline constexpr int kMaxRows = 24;  // rows a stage can hold
+inline constexpr int kMaxRows = 28;  // rows a stage can hold
 
 template <int kNx, int kNu>
 struct OcpQpRow {

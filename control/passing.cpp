@@ -12,10 +12,14 @@ namespace {
 // What a gap costs, in metres that the vehicle must move sideways.
 constexpr double kBeyondGrip = 20.0;  // per multiple of the grip
 constexpr double kLacking = 50.0;     // per metre that it is too narrow
-constexpr double kChange = 0.6;    // per obstacle that would be passed on the other side than decided before
+constexpr double kChange = 2.0;    // per obstacle that would be passed on the other side than decided before
 constexpr double kTooMuch = 15.0;  // rather stop
 
 constexpr double kStoppedWithin = 0.1;  // [m]
+// By so much a gap may be too narrow if it was wide enough when it was chosen, and so much wider it has to be if the vehicle
+// stops for it already [m].
+constexpr double kKept = 0.15;
+constexpr double kReopened = 0.1;
 
 }  // namespace
 
@@ -105,13 +109,14 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
   const double left_edge = course_->road().left - half_width - settings_.road_margin;
   // 90 % of the grip stop it within the distance that is left; at a walking pace, anywhere.
   const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, kStoppedWithin);
+  const double margins = settings_.margin + std::min(settings_.margin, settings_.road_margin);
   // Gap g lies left of the first g obstacles and right of the others.
   double best_cost = std::numeric_limits<double>::infinity();
   double best_lateral = from;
   std::size_t best = 0;
   for (std::size_t g = 0; g <= group.size(); ++g) {
     double lo = right_edge, hi = left_edge;
-    bool allowed = true;
+    bool allowed = true, kept_all = true, stopped = false;
     int changes = 0;
     for (std::size_t k = 0; k < group.size(); ++k) {
       const Meeting& m = group[k];
@@ -124,11 +129,14 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
       const Obstacle& obstacle = obstacles[m.index];
       allowed = allowed && Allowed(obstacle, passage);
       const Passage kept = Kept(obstacle);
+      kept_all = kept_all && kept == passage;
+      stopped = stopped || kept == Passage::kStop;
       if ((kept == Passage::kLeft || kept == Passage::kRight) && kept != passage) ++changes;
     }
-    // Too narrow by so much: no way through, but the best one if there is no stopping any more.
+    // Who cannot stop any more goes through what the margins leave.
+    const double spare = can_stop ? (kept_all ? kKept : (stopped ? -kReopened : 0.0)) : margins;
+    if (!allowed || lo - hi > spare) continue;
     const double lacking = std::max(lo - hi, 0.0);
-    if (!allowed || (lacking > 0.0 && can_stop)) continue;
     if (lacking > 0.0) lo = hi = 0.5 * (lo + hi);
     const double to = std::clamp(0.0, lo, hi);
     const double shift = std::abs(std::clamp(from, lo, hi) - from);
@@ -142,8 +150,10 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
       best = g;
     }
   }
-  // What needs more than the tyres give is stopped for, if that is still possible.
-  const bool stop = best_cost > kTooMuch && can_stop;
+  // What needs more than the tyres give is stopped for, if that is still possible; where nothing is left, the brake is what
+  // remains.
+  const bool none = !(best_cost < std::numeric_limits<double>::infinity());
+  const bool stop = none || (best_cost > kTooMuch && can_stop);
   for (std::size_t k = 0; k < group.size(); ++k) {
     Passage& passage = decisions_[group[k].index].passage;
     passage = stop ? Passage::kStop : (k < best ? Passage::kLeft : Passage::kRight);

@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 constexpr double kGravity = 9.81;        // [m/s²]
 constexpr double kRoadTolerance = 0.02;  // [m]
 constexpr double kGripTolerance = 0.3;   // [m/s²]
+constexpr double kSmallest = 1e-3;       // semi-axis of an obstacle [m]
 
 Vector2d CornerAt(const State& z, const Vector2d& corner) {
   return Vector2d(z[kX], z[kY]) + Eigen::Rotation2Dd(z[kPsi]) * corner;
@@ -58,7 +59,8 @@ double PlanCheck::BeyondGrip(const State& z, const Input& u) const {
 double PlanCheck::Touched(const State& z, const Obstacle& obstacle) const {
   std::array<Vector2d, 4> corners = settings_.footprint.Corners();
   const Eigen::Rotation2Dd to_axes(-obstacle.heading);
-  const Vector2d axes(obstacle.r_x, obstacle.r_y), centre(obstacle.X, obstacle.Y);
+  const Vector2d axes = Vector2d(obstacle.r_x, obstacle.r_y).cwiseMax(kSmallest);
+  const Vector2d centre(obstacle.X, obstacle.Y);
   for (Vector2d& corner : corners) corner = (to_axes * (CornerAt(z, corner) - centre)).cwiseQuotient(axes);
   double nearest = corners[0].norm();
   bool inside = settings_.footprint.half_width > 0.0;
@@ -68,7 +70,7 @@ double PlanCheck::Touched(const State& z, const Obstacle& obstacle) const {
     nearest = std::min(nearest, DistanceToSegment(a, b));
     inside = inside && Cross(b - a, -a) <= 0.0;  // the corners go round clockwise
   }
-  return (inside ? 1.0 + nearest : 1.0 - nearest) * std::min(obstacle.r_x, obstacle.r_y);
+  return (inside ? 1.0 + nearest : 1.0 - nearest) * axes.minCoeff();
 }
 
 std::optional<ConstraintViolation> PlanCheck::Judge(const State& z, std::span<const Input> u,

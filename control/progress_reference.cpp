@@ -27,6 +27,18 @@ double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> 
   return speed;
 }
 
+// Brakes that catch up with a profile are a little harder than comfortable; before a line that is near, as hard as it takes.
+double ProgressReference::Deceleration(double s, double upsilon, std::span<const StopLine> stops) const {
+  const SpeedLimits& limits = course_->limits();
+  double hardest = kHarder * limits.deceleration;
+  for (const StopLine& stop : stops) {
+    const double closing = std::max(upsilon - stop.speed, 0.0);
+    const double needed = closing * closing / (2.0 * std::max(stop.s - s, Course::kStopWithin));
+    hardest = std::max(hardest, std::min(needed, limits.emergency));
+  }
+  return hardest;
+}
+
 void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
                              std::span<Input> u, std::span<double> s) const {
   const double wheelbase = vehicle_.l_f + vehicle_.l_r;
@@ -34,7 +46,7 @@ void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLin
                             (vehicle_.l_r / vehicle_.C_alpha_f - vehicle_.l_f / vehicle_.C_alpha_r);
   const double slip = vehicle_.m * vehicle_.l_f / (2.0 * vehicle_.C_alpha_r * wheelbase);
   const double up = course_->limits().acceleration * t_s_;
-  const double down = kHarder * course_->limits().deceleration * t_s_;
+  const double down = Deceleration(s_0, upsilon, stops) * t_s_;
 
   double place = s_0;
   double speed = std::clamp(SpeedAt(place, 0.0, stops), std::max(upsilon - kSpeedTolerance, 0.0),

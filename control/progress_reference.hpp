@@ -33,6 +33,7 @@ class ProgressReference {
             std::span<Input> u, std::span<double> s) const;
 
  private:
+  [[nodiscard]] double Deceleration(double s, double upsilon, std::span<const StopLine> stops) const;
   [[nodiscard]] double SpeedAt(double s, double t, std::span<const StopLine> stops) const;
 
   VehicleParameters vehicle_;

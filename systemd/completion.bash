@@ -9,7 +9,7 @@ _lpvmpcd() {
       return
       ;;
     --controller)
-      local kinds="lpv lpv-standard"
+      local kinds="lpv-affine lpv lpv-standard"
       [[ ${words[0]##*/} != lpvmpc ]] || kinds+=" nmpc" # which no daemon drives by
       _lpvmpcd_offer "$kinds"
       return

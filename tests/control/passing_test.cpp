@@ -143,13 +143,17 @@ TEST_F(Passing, ObstacleThatIsFollowedAtItsOwnSpeedIsNotIgnored) {
   for (const double speed : {4.5, 5.0, 5.5}) EXPECT_EQ(Decide(slow, 0.0, speed), Passage::kStop) << speed;
 }
 
-TEST_F(Passing, WhereItIsTooLateToStopTheWidestGapIsTaken) {
-  const Obstacle wide = At(8.0, -0.5, 3.5);  // 2.5 m before the front
-  EXPECT_EQ(DecideAnew(wide, 0.0, kSpeed), Passage::kLeft);
-  EXPECT_EQ(DecideAnew(wide, 0.0, 3.0), Passage::kStop);
-  Obstacle other = wide;
+TEST_F(Passing, WhereItIsTooLateToStopAGapIsTakenThatLeavesTheMarginsNoRoom) {
+  const Obstacle tight = At(8.0, -0.5, 2.6);  // 0.3 m of the margins are lacking, of 0.4 m
+  EXPECT_EQ(DecideAnew(tight, 0.0, kSpeed), Passage::kLeft);
+  EXPECT_EQ(DecideAnew(tight, 0.0, 3.0), Passage::kStop);
+  Obstacle other = tight;
   other.Y = 0.5;
   EXPECT_EQ(DecideAnew(other, 0.0, kSpeed), Passage::kRight);
+}
+
+TEST_F(Passing, WhereTheVehicleDoesNotFitItBrakesThoughItIsTooLate) {
+  EXPECT_EQ(DecideAnew(At(8.0, -0.5, 3.5), 0.0, kSpeed), Passage::kStop);
 }
 
 TEST_F(Passing, AtStandstillItStaysBeforeABlockedRoadThoughSomethingIsBesideIt) {

@@ -13,8 +13,10 @@ constexpr int kSteps = 40;
 class PlanCheckTest : public testing::Test {
  protected:
   static Course StraightCourse() {
-    const std::array pieces{RoutePiece{.length = 300.0, .curvature_from = 0.0, .curvature_to = 0.0, .speed = {}}};
-    return Course(Route::FromPieces({.X = 0.0, .Y = 0.0, .psi = 0.0}, 15.0, pieces), RoadBounds{}, SpeedLimits{});
+    const std::array pieces{
+        RoutePiece{.length = 300.0, .curvature_from = 0.0, .curvature_to = 0.0, .speed = {}}};
+    return Course(Route::FromPieces({.X = 0.0, .Y = 0.0, .psi = 0.0}, 15.0, pieces), RoadBounds{},
+                  SpeedLimits{});
   }
   static State At(double X, double Y, double psi = 0.0) {
     State z;

@@ -55,6 +55,47 @@ TEST_F(ConfigTest, LimitsHoldForTheProblemAndForTheLimiter) {
   EXPECT_EQ(config.loop.limits.max_steering_step, config.mpc.rate_max[control::kDelta]);
 }
 
+TEST_F(ConfigTest, APlanOfLpvAffineKeepsItsOwnRatesWithinTheLimits) {
+  const Config slow = Load(kRoute + "[lpv_affine]\nmax_steering_rate = 0.4\nmax_jerk = 10\n");
+  EXPECT_NEAR(slow.affine.rate_max[control::kDelta], 0.02, 1e-12);
+  EXPECT_NEAR(slow.affine.rate_max[control::kAcceleration], 0.5, 1e-12);
+  const Config limited =
+      Load(kRoute + "[limits]\nmax_steering = 0.3\nmax_steering_step = 0.01\nmax_acceleration_step = 0.2\n");
+  EXPECT_EQ(limited.affine.rate_max, control::Input(0.01, 0.2));
+  EXPECT_EQ(limited.affine.u_max, limited.mpc.u_max);
+  EXPECT_EQ(limited.affine.u_min, limited.mpc.u_min);
+}
+
+TEST_F(ConfigTest, TrustRegionOfLpvAffineIsAdaptiveFixedOrNone) {
+  EXPECT_TRUE(Load(kRoute).affine.adapt_trust_region);
+  const Config fixed = Load(kRoute + "[lpv_affine]\ntrust_region = \"fixed\"\n");
+  EXPECT_TRUE(fixed.affine.trust_region);
+  EXPECT_FALSE(fixed.affine.adapt_trust_region);
+  EXPECT_FALSE(Load(kRoute + "[lpv_affine]\ntrust_region = \"none\"\n").affine.trust_region);
+  EXPECT_THAT(Error(kRoute + "[lpv_affine]\ntrust_region = \"wide\"\n"), HasSubstr("adaptive"));
+}
+
+TEST_F(ConfigTest, LpvAffineSetsOffFromStandstillAndThePapersControllersDoNot) {
+  Config config = Load(kRoute);
+  EXPECT_TRUE(config.loop.by_progress);
+  EXPECT_EQ(config.loop.engage_min_speed, 0.0);
+  SelectController(config, "lpv");
+  EXPECT_FALSE(config.loop.by_progress);
+  EXPECT_EQ(config.loop.engage_min_speed, 3.0);
+  Config written = Load(kRoute + "[engage]\nmin_speed = 1.5\n");
+  EXPECT_EQ(written.loop.engage_min_speed, 1.5);
+  SelectController(written, "lpv");
+  EXPECT_EQ(written.loop.engage_min_speed, 1.5);
+}
+
+TEST_F(ConfigTest, TheVehiclesRectangleIsGivenByItsEndsAndItsWidth) {
+  const Config config = Load(kRoute + "[vehicle]\nfront = 2.5\nrear = 1.5\nwidth = 2\n");
+  EXPECT_EQ(config.affine.footprint.front, 2.5);
+  EXPECT_EQ(config.affine.footprint.rear, 1.5);
+  EXPECT_EQ(config.affine.footprint.half_width, 1.0);
+  EXPECT_THAT(Error(kRoute + "[vehicle]\nwidth = -1\n"), HasSubstr("width"));
+}
+
 TEST_F(ConfigTest, PeriodHoldsForBusReferenceAndController) {
   const Config config = Load(kRoute + "[cycle]\nperiod = 0.02\n");
   EXPECT_EQ(config.mpc.t_s, 0.02);

@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
     if (argc < 5) throw std::runtime_error("too few arguments");
     lpvmpcd::Config config = lpvmpcd::LoadConfig(argv[2]);
     config.service.interface = argv[4];
+    lpvmpcd::SelectController(config, "lpv");
     if (argc > 5) lpvmpcd::SelectLockstep(config);
     lpvmpcd::Assembly assembly(config, config::LoadRoute(config.route), lpvmpcd::MonotonicNow,
                                [](const lpvmpcd::Config& of, const control::Course&) {

@@ -36,7 +36,7 @@ fi
 
 Completes '--check-config --config --controller' lpvmpcd --c
 Completes 'a.toml drive' lpvmpcd --config ''
-Completes 'lpv lpv-standard' lpvmpcd --controller ''
+Completes 'lpv lpv-affine lpv-standard' lpvmpcd --controller ''
 Completes '--scenario' lpvmpc-sim --interface vcan0 --s
 Completes 'a.toml drive' lpvmpc-sim --scenario ''
 Completes 'bench decode paper report run sweep' lpvmpc ''
@@ -44,7 +44,7 @@ Completes 'report run' lpvmpc r
 Completes 'step' lpvmpc bench ''
 Completes '--horizon' lpvmpc bench step --hor
 Completes '--map' lpvmpc paper --m
-Completes 'lpv lpv-standard nmpc' lpvmpc run --controller ''
+Completes 'lpv lpv-affine lpv-standard nmpc' lpvmpc run --controller ''
 Completes '--out' lpvmpc run --scenario a.toml --o
 Completes 'drive' lpvmpc run --out ''
 Completes 'a.log drive' lpvmpc decode ''

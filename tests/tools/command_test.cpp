@@ -104,8 +104,8 @@ TEST(Lpvmpc, SweepRefusesWhatCannotBe) {
 }
 
 TEST(Lpvmpc, RunDrivesAScenarioOfASweepAgain) {
-  const std::vector<std::string> sweep{LPVMPC, "sweep", "--count",      "1",  "--seed", "4", "--speed",
-                                       "9",    "10",    "--controller", "lpv"};
+  const std::vector<std::string> sweep{LPVMPC, "sweep", "--count",      "1",         "--seed", "4", "--speed",
+                                       "9",    "10",    "--controller", "lpv-affine"};
   std::vector<std::string> as_json = sweep;
   as_json.emplace_back("--json");
   const std::string json = test_support::Run(as_json).out;

@@ -1,5 +1,7 @@
 // The daemon and the simulated vehicle as processes of their own on a real interface, held against the same drive in
 // memory.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string kRepository = LPVMPC_SOURCE_DIR;
-const std::string kScenario = kRepository + "/scenarios/demo/scenario.toml";
+const std::string kScenario = kRepository + "/scenarios/whole_drive/scenario.toml";
 
 std::vector<can::Frame> ReadLog(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -50,10 +52,10 @@ class LockstepOnVcan : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = std::make_unique<test_support::TempDir>();
-    const test_support::Outcome drive =
-        test_support::Run({"env", std::string("LPVMPC_BIN=") + LPVMPC_BIN_DIR, kRepository + "/scripts/drive",
-                           kScenario, kRepository + "/scenarios/demo/lpvmpcd.toml", folder->path().string()},
-                          180s);
+    const test_support::Outcome drive = test_support::Run(
+        {"env", std::string("LPVMPC_BIN=") + LPVMPC_BIN_DIR, kRepository + "/scripts/drive", kScenario,
+         kRepository + "/scenarios/whole_drive/lpvmpcd.toml", folder->path().string()},
+        180s);
     status = drive.status;
     if (status != 0) std::fprintf(stderr, "%s%s", drive.out.c_str(), drive.err.c_str());
   }
@@ -68,6 +70,25 @@ int LockstepOnVcan::status = -1;
 
 TEST_F(LockstepOnVcan, DriveMeetsTheScenariosExpectations) {
   EXPECT_EQ(status, 0);
+}
+
+TEST_F(LockstepOnVcan, ItSetsOffFromStandstillAndStopsAtTheEndOfTheRoute) {
+  const dbc::VehicleBus bus;
+  std::vector<double> speeds;
+  bool route_end = false;
+  for (const can::Frame& frame : ReadLog(folder->path() / "candump.log")) {
+    const auto message = bus.Decode(frame.id, frame.Payload());
+    ASSERT_TRUE(message);
+    if (const auto* motion = std::get_if<dbc::VehicleMotion>(&*message)) speeds.push_back(motion->upsilon);
+    if (const auto* of = std::get_if<dbc::ControllerStatus>(&*message)) {
+      route_end = route_end || of->fault_code == dbc::FaultCode::kRouteEnd;
+    }
+  }
+  ASSERT_FALSE(speeds.empty());
+  EXPECT_LT(std::abs(speeds.front()), 0.2);
+  EXPECT_GT(std::ranges::max(speeds), 11.0);
+  EXPECT_LT(std::abs(speeds.back()), 0.4);
+  EXPECT_TRUE(route_end);
 }
 
 TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
@@ -106,8 +127,10 @@ TEST_F(LockstepOnVcan, EveryFrameOnTheBusPassesItsChecks) {
 }
 
 TEST_F(LockstepOnVcan, CanplayerPlaysTheLogAgain) {
-  const std::filesystem::path log = folder->path() / "candump.log";
-  ASSERT_GT(Lines(log), 10000u);
+  const std::filesystem::path log = folder->path() / "beginning.log";  // the whole would take a minute
+  test_support::Run(
+      {"sh", "-c", "head -n 10000 " + (folder->path() / "candump.log").string() + " >" + log.string()});
+  ASSERT_EQ(Lines(log), 10000u);
   const std::filesystem::path replay = folder->path() / "replay.log";
   test_support::Process candump({"sh", "-c", "exec candump -r 67108864 -L vcan1 >" + replay.string()});
   ASSERT_TRUE(test_support::WaitUntil([&] {  // candump listens once it shows a frame
