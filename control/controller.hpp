@@ -1,6 +1,7 @@
 // What every controller takes and gives.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -28,6 +29,15 @@ struct ControllerInput {
   // Asked before an iteration that would improve the plan but is not needed: false ends them. None: there is time.
   const std::function<bool()>* time_left = nullptr;
 };
+
+// Of the state, the input last applied and the obstacles.
+[[nodiscard]] inline bool IsFinite(const ControllerInput& input) {
+  return input.z.allFinite() && input.u_previous.allFinite() &&
+         std::ranges::all_of(input.obstacles, [](const Obstacle& o) {
+           return Eigen::Vector<double, 7>(o.X, o.Y, o.r_x, o.r_y, o.heading, o.velocity_X, o.velocity_Y)
+               .allFinite();
+         });
+}
 
 // The optimal trajectory of one step and what is to be known about how it came about.
 struct Plan {

@@ -66,6 +66,19 @@ void DrivingTask::Begin(const State& z, std::span<const Obstacle> obstacles) {
   waiting_ = nowhere && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
 }
 
+void DrivingTask::Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const {
+  constexpr double kBrake = -1.0;  // [m/s²]
+  State still = z_;
+  still[kUpsilon] = still[kNu] = still[kOmega] = 0.0;
+  std::ranges::fill(z, still);
+  Input last = u_previous;
+  for (Input& planned : u) {
+    const double step = settings_.rate_max[kAcceleration];
+    last[kAcceleration] += std::clamp(kBrake - last[kAcceleration], -step, step);
+    planned = last;
+  }
+}
+
 void DrivingTask::Place(const State& z) {
   const RouteProjection place =
       placed_ ? course_->Project(Position(z), s_) : course_->Find(Position(z), z[kPsi]);

@@ -49,6 +49,8 @@ class DrivingTask {
   [[nodiscard]] const State& z() const { return z_; }  // of Begin, ψ within π of the course's
   // At standstill, or almost, with nowhere to go to. It takes more than noise to go on.
   [[nodiscard]] bool waiting() const { return waiting_; }
+  // The plan of a vehicle that waits: the brake holds, the wheels stay as they are.
+  void Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const;
   [[nodiscard]] std::span<const State> reference() const { return z_ref_; }
   [[nodiscard]] std::span<const Input> reference_input() const { return u_ref_; }
   // Of step i ≥ 1; they belong to the task until the next Bound.

@@ -9,18 +9,6 @@ namespace control {
 
 using namespace lpv_affine;
 
-namespace {
-
-bool IsFinite(const ControllerInput& input) {
-  return input.z.allFinite() && input.u_previous.allFinite() &&
-         std::ranges::all_of(input.obstacles, [](const Obstacle& o) {
-           return Eigen::Vector<double, 7>(o.X, o.Y, o.r_x, o.r_y, o.heading, o.velocity_X, o.velocity_Y)
-               .allFinite();
-         });
-}
-
-}  // namespace
-
 LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const Course& course,
                            const LpvAffineSettings& settings)
     : settings_(settings),
@@ -57,27 +45,13 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   task_.Begin(input.z, input.obstacles);
   CompareScheduling();
   if (task_.waiting()) {
-    Hold(input.u_previous);
+    task_.Hold(input.u_previous, plan_.z, plan_.u);
+    plan_.status = SolverStatus::kSolved;
+    has_prediction_ = false;
   } else {
     Solve(input);
   }
   return plan_;
-}
-
-// The brake holds, the wheels stay as they are.
-void LpvAffineMpc::Hold(const Input& u_previous) {
-  constexpr double kBrake = -1.0;  // [m/s²]
-  State still = task_.z();
-  still[kUpsilon] = still[kNu] = still[kOmega] = 0.0;
-  std::ranges::fill(plan_.z, still);
-  Input u = u_previous;
-  for (Input& planned : plan_.u) {
-    const double step = settings_.rate_max[kAcceleration];
-    u[kAcceleration] += std::clamp(kBrake - u[kAcceleration], -step, step);
-    planned = u;
-  }
-  plan_.status = SolverStatus::kSolved;
-  has_prediction_ = false;
 }
 
 // Scheduling realised against predicted. Where predictions come true the trust region may be wide; where they do not,

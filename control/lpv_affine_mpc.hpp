@@ -45,7 +45,6 @@ class LpvAffineMpc final : public Controller {
   [[nodiscard]] std::span<const Input> reference_input() const { return task_.reference_input(); }
 
  private:
-  void Hold(const Input& u_previous);
   void CompareScheduling();
   void Predict();
   void Solve(const ControllerInput& input);

@@ -1,20 +1,21 @@
-// The paper's NMPC (eq:nonlinear_MPC): the nonlinear program of nmpc_problem.hpp, solved by Ipopt (Wächter, Biegler
-// 2006) from the last solution, shifted by a step. For comparison: it allocates, its time has no bound but a coarse
-// one, and two threads must not solve at the same time, since MUMPS below Ipopt is not made for that.
+// The paper's NMPC (eq:nonlinear_MPC): the nonlinear program of nmpc_problem.hpp, solved by Ipopt (ipopt_solver.hpp) from
+// the last solution, shifted by a step. For comparison: it allocates, its time has no bound but a coarse one, and two
+// threads must not solve at the same time.
 //
 // Its solution is a local one. On which side an obstacle is passed (assum_1) is decided by the start: points of it that
 // lie inside are first moved out on that side.
 //
-// Status: kSolved to the tolerance; kInfeasible: Ipopt ended in a point where the violation of the constraints is
-// smallest near by, which is no proof; kIterationLimit: the limit of iterations or time; kNumericalFailure: all else.
+// Status: that of ipopt_solver.hpp.
 #pragma once
 
-#include <memory>
 #include <optional>
+#include <vector>
 
 #include "control/constraint.hpp"
 #include "control/controller.hpp"
+#include "control/ipopt_solver.hpp"
 #include "control/mpc_settings.hpp"
+#include "control/nmpc_problem.hpp"
 #include "control/vehicle_parameters.hpp"
 
 namespace control {
@@ -29,18 +30,24 @@ class Nmpc final : public Controller {
  public:
   // Throws std::runtime_error: Ipopt refuses its options.
   Nmpc(const VehicleParameters& vehicle, const NmpcSettings& settings);
-  ~Nmpc() override;
-  Nmpc(const Nmpc&) = delete;
-  Nmpc& operator=(const Nmpc&) = delete;
 
-  [[nodiscard]] int horizon() const override;
+  [[nodiscard]] int horizon() const override { return settings_.horizon; }
   [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
-  void Reset() override;
+  void Reset() override { has_guess_ = false; }
   [[nodiscard]] std::optional<ConstraintViolation> Unsatisfied() const override;
 
  private:
-  class Solver;  // keeps Ipopt's headers in one file
-  std::unique_ptr<Solver> solver_;
+  void StartFromReference(const ControllerInput& input);
+  void MoveOutOfObstacles(const ControllerInput& input);
+  void Shift();
+
+  NmpcSettings settings_;
+  NmpcProblem problem_;
+  IpoptSolver solver_;
+  NonlinearPoint point_;      // where the next solve starts
+  bool has_guess_ = false;    // point_ comes from the last solution
+  std::vector<double> last_;  // x at the end of the last solve
+  Plan plan_;
 };
 
 }  // namespace control

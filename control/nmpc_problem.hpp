@@ -19,11 +19,12 @@
 #include "control/constraint.hpp"
 #include "control/controller.hpp"
 #include "control/mpc_settings.hpp"
+#include "control/nonlinear_program.hpp"
 #include "control/vehicle_model.hpp"
 
 namespace control {
 
-class NmpcProblem {
+class NmpcProblem final : public NonlinearProgram {
  public:
   NmpcProblem(const VehicleParameters& vehicle, const MpcSettings& settings);
 
@@ -32,35 +33,22 @@ class NmpcProblem {
 
   static constexpr int kStepVariables = kInputs + kStates;
   [[nodiscard]] int horizon() const { return settings_.horizon; }
-  [[nodiscard]] int variables() const { return settings_.horizon * kStepVariables; }
-  [[nodiscard]] int rows() const { return settings_.horizon * StepRows(); }
+  [[nodiscard]] int variables() const override { return settings_.horizon * kStepVariables; }
+  [[nodiscard]] int rows() const override { return settings_.horizon * StepRows(); }
   // Places of the variables in x: of u_i (i = 0..N-1) and z_i (i = 1..N).
   [[nodiscard]] static constexpr int InputAt(int i) { return i * kStepVariables; }
   [[nodiscard]] static constexpr int StateAt(int i) { return (i - 1) * kStepVariables + kInputs; }
 
-  struct Bounds {
-    std::vector<double> lo, hi;  // ±∞ where there is none
-  };
-  [[nodiscard]] const Bounds& variable_bounds() const { return variable_bounds_; }
-  [[nodiscard]] const Bounds& row_bounds() const { return row_bounds_; }
-
-  struct Entry {
-    int row;
-    int column;
-  };
-  // Places that may differ from zero, each once; of the Hessian those of the lower triangle. Values come in their
-  // order.
-  [[nodiscard]] const std::vector<Entry>& jacobian_pattern() const { return jacobian_pattern_; }
-  [[nodiscard]] const std::vector<Entry>& hessian_pattern() const { return hessian_pattern_; }
-
-  // x, gradient: variables(); g, λ: rows(); values: one for each place of the pattern.
-  [[nodiscard]] double Cost(std::span<const double> x) const;
-  void Gradient(std::span<const double> x, std::span<double> gradient) const;
-  void Rows(std::span<const double> x, std::span<double> g) const;
-  void Jacobian(std::span<const double> x, std::span<double> values) const;
-  // Of σ cost + λᵀ rows.
+  [[nodiscard]] const Bounds& variable_bounds() const override { return variable_bounds_; }
+  [[nodiscard]] const Bounds& row_bounds() const override { return row_bounds_; }
+  [[nodiscard]] const std::vector<Entry>& jacobian_pattern() const override { return jacobian_pattern_; }
+  [[nodiscard]] const std::vector<Entry>& hessian_pattern() const override { return hessian_pattern_; }
+  [[nodiscard]] double Cost(std::span<const double> x) const override;
+  void Gradient(std::span<const double> x, std::span<double> gradient) const override;
+  void Rows(std::span<const double> x, std::span<double> g) const override;
+  void Jacobian(std::span<const double> x, std::span<double> values) const override;
   void Hessian(std::span<const double> x, double sigma, std::span<const double> lambda,
-               std::span<double> values) const;
+               std::span<double> values) const override;
 
   [[nodiscard]] State StateOf(std::span<const double> x, int i) const;  // i = 0..N
   [[nodiscard]] Input InputOf(std::span<const double> x, int i) const;  // i = 0..N-1

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/control/closed_loop.hpp"
+#include "tests/control/differences.hpp"
 #include "tests/control/random.hpp"
 
 namespace control {
@@ -11,6 +12,8 @@ namespace {
 using Curvature = VehicleModel::Curvature;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using testing::Differences;
+using testing::ExpectClose;
 using testing::Random;
 
 State RandomState(Random& random) {
@@ -20,34 +23,6 @@ State RandomState(Random& random) {
 
 Input RandomInput(Random& random) {
   return {random.Uniform(-0.5, 0.5), random.Uniform(-6.0, 2.0)};
-}
-
-// Central differences; `function` maps a vector to a vector.
-template <typename Function>
-MatrixXd Differences(const VectorXd& at, const Function& function) {
-  constexpr double kH = 1e-6;
-  MatrixXd jacobian;
-  for (Eigen::Index j = 0; j < at.size(); ++j) {
-    VectorXd up = at, down = at;
-    up[j] += kH;
-    down[j] -= kH;
-    const VectorXd column = (function(up) - function(down)) / (2.0 * kH);
-    if (j == 0) jacobian.resize(column.size(), at.size());
-    jacobian.col(j) = column;
-  }
-  return jacobian;
-}
-
-// Against entries of any size.
-void ExpectClose(const MatrixXd& analytic, const MatrixXd& numeric) {
-  ASSERT_EQ(analytic.rows(), numeric.rows());
-  ASSERT_EQ(analytic.cols(), numeric.cols());
-  const MatrixXd error =
-      (analytic - numeric).cwiseAbs().cwiseQuotient((1.0 + numeric.cwiseAbs().array()).matrix());
-  Eigen::Index row = 0, column = 0;
-  EXPECT_LT(error.maxCoeff(&row, &column), 1e-6)
-      << "at (" << row << ", " << column << "): " << analytic(row, column) << " against "
-      << numeric(row, column);
 }
 
 TEST(VehicleModel, JacobianAndHessianAreTheDerivativesOfTheMotion) {
