@@ -1,6 +1,7 @@
 #include "daemon/assembly.hpp"
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "config/route_file.hpp"
@@ -19,11 +20,13 @@ std::unique_ptr<control::Controller> MakeController(const Config& config, const 
     case ControllerKind::kLpvStandard:
       return std::make_unique<control::LpvMpc>(config.vehicle, config.mpc);
     case ControllerKind::kNmpc:
+    case ControllerKind::kNmpcAffine:
       break;
   }
   // Ipopt allocates and has no bound on its time.
   throw std::runtime_error(
-      "controller nmpc is for lpvmpc alone: no daemon drives by it; take lpv-affine, lpv or lpv-standard");
+      std::string("controller ") + ControllerName(config.controller) +
+      " is for lpvmpc alone: no daemon drives by it; take lpv-affine, lpv or lpv-standard");
 }
 
 dbc::VehicleBus OpenBus(const Config& config) {
@@ -50,7 +53,7 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route, std::fu
              course_),
       // The paper's controllers plan for a point with a coarser model: their plans would not pass.
       loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch),
-            config.controller == ControllerKind::kLpvAffine ? &check_ : nullptr) {
+            IsAffine(config.controller) ? &check_ : nullptr) {
   if (reference_.size() <= HorizonOf(config)) {
     throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");
   }

@@ -16,8 +16,8 @@ using config::TomlTable;
 
 constexpr double kSmallest = 1e-9;  // of what has to be positive
 constexpr double kLargest = 1e12;
-constexpr std::array kControllerNames{"lpv-affine", "lpv", "lpv-standard",
-                                      "nmpc"};  // in the order of ControllerKind
+constexpr std::array kControllerNames{"lpv-affine", "lpv", "lpv-standard", "nmpc",
+                                      "nmpc-affine"};  // in the order of ControllerKind
 
 // Sets `vector` from the array under `key`, if it is there.
 template <typename Vector>
@@ -74,7 +74,7 @@ void Select(Config& config, ControllerKind kind) {
   config.controller = kind;
   config.mpc.trust_region = kind == ControllerKind::kLpv;
   // The paper's model divides by the speed, and its reference does not wait for who is late.
-  const bool affine = kind == ControllerKind::kLpvAffine;
+  const bool affine = IsAffine(kind);
   config.loop.by_progress = affine;
   config.loop.engage_min_speed = config.engage_min_speed.value_or(affine ? 0.0 : 3.0);
 }
@@ -226,7 +226,7 @@ void SelectController(Config& config, const std::string& name) {
 }
 
 int HorizonOf(const Config& config) {
-  return config.controller == ControllerKind::kLpvAffine ? config.affine.horizon : config.mpc.horizon;
+  return IsAffine(config.controller) ? config.affine.horizon : config.mpc.horizon;
 }
 
 const char* ControllerName(ControllerKind kind) {

@@ -25,7 +25,8 @@
 //                 (of the problem that is solved and of the limiter after it)
 //   [controller]  kind = "lpv-affine"           "lpv-affine": see [lpv_affine]; "lpv": the paper's, with the scheduling
 //                                               trust region; "lpv-standard": the same without;
-//                                               "nmpc": for lpvmpc alone, the daemon refuses it
+//                                               for lpvmpc alone, the daemon refuses them: "nmpc": the paper's;
+//                                               "nmpc-affine": the problem of lpv-affine, nonlinear
 //                 (the keys below are those of the paper's controllers)
 //                 horizon = 8                   N, 2..100
 //                 discretisation = "euler"      "euler" as in the paper, or "zero-order-hold"; nmpc: Euler always
@@ -85,7 +86,16 @@
 
 namespace lpvmpcd {
 
-enum class ControllerKind : std::uint8_t { kLpvAffine, kLpv, kLpvStandard, kNmpc };
+enum class ControllerKind : std::uint8_t { kLpvAffine, kLpv, kLpvStandard, kNmpc, kNmpcAffine };
+
+// By the problem that lpv-affine and nmpc-affine share: for the vehicle's rectangle, along the course, by progress.
+[[nodiscard]] constexpr bool IsAffine(ControllerKind kind) {
+  return kind == ControllerKind::kLpvAffine || kind == ControllerKind::kNmpcAffine;
+}
+// Nonlinear, by Ipopt.
+[[nodiscard]] constexpr bool IsNmpc(ControllerKind kind) {
+  return kind == ControllerKind::kNmpc || kind == ControllerKind::kNmpcAffine;
+}
 
 struct Config {
   std::filesystem::path dbc;  // empty: built in
@@ -94,8 +104,8 @@ struct Config {
   LoopSettings loop;
   ControllerKind controller = ControllerKind::kLpvAffine;
   control::LpvMpcSettings mpc;        // of the paper's controllers; its trust_region is that of `controller`
-  control::LpvAffineSettings affine;  // inputs and rates within loop.limits
-  control::SpeedLimits speed;         // of lpv-affine
+  control::LpvAffineSettings affine;  // and of nmpc-affine; inputs and rates within loop.limits
+  control::SpeedLimits speed;         // of both
   std::optional<double> engage_min_speed;  // as written
   control::VehicleParameters vehicle;
   std::string log_level = "info";

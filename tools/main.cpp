@@ -22,6 +22,7 @@
 #include "tools/run.hpp"
 #include "tools/sweep/scenario_seed.hpp"
 #include "tools/sweep/sweep.hpp"
+#include "tools/sweep/sweep_config.hpp"
 
 namespace {
 
@@ -146,14 +147,16 @@ int main(int argc, char** argv) {
 
   tools::SweepOptions sweep;
   sweep.jobs = processors;
-  sweep.setup.controllers = lpvmpcd::ControllerNames();
+  sweep.setup.controllers = tools::SweepControllers();
   CLI::App* sweep_command =
       app.add_subcommand("sweep", "drive many scenarios drawn by chance")->require_subcommand(0, 1);
   sweep_command->add_option("--count", sweep.setup.count, "scenarios; required")
       ->check(CLI::Range(1, 1'000'000));
   sweep_command->add_option("--seed", sweep.setup.seed, "of the sweep; required")->check(kSeeds);
   AddRanges(*sweep_command, sweep.setup.ranges);
-  sweep_command->add_option("--controller", sweep.setup.controllers, "one or several of " + controllers)
+  sweep_command
+      ->add_option("--controller", sweep.setup.controllers,
+                   fmt::format("one or several of {}", fmt::join(tools::SweepControllers(), ", ")))
       ->default_str("all");
   sweep_command->add_option("--jobs", sweep.jobs, "processes that drive")
       ->check(CLI::Range(1, 1024))

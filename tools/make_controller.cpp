@@ -1,5 +1,6 @@
 #include "tools/make_controller.hpp"
 
+#include "control/affine_nmpc.hpp"
 #include "control/nmpc.hpp"
 #include "daemon/assembly.hpp"
 
@@ -14,6 +15,9 @@ std::unique_ptr<control::Controller> MakeController(const lpvmpcd::Config& confi
     settings.max_cpu_time =
         1e6;  // what a computer takes for a step must not change the drive: its iterations end it
     return std::make_unique<control::Nmpc>(config.vehicle, settings);
+  }
+  if (config.controller == lpvmpcd::ControllerKind::kNmpcAffine) {
+    return std::make_unique<control::AffineNmpc>(config.vehicle, course, config.affine);
   }
   return lpvmpcd::MakeController(config, course);
 }

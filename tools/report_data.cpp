@@ -70,7 +70,7 @@ ordered_json SeriesData(const DriveRecord& record, const lpvmpcd::Config& config
                               return s.status.solver_status == dbc::SolverStatus::kSolved ? 1.0 : 0.0;
                             }));
   // An NMPC has no scheduling.
-  const bool scheduled = config.controller != lpvmpcd::ControllerKind::kNmpc;
+  const bool scheduled = !IsNmpc(config.controller);
   const auto if_scheduled = [scheduled](const auto& value) {
     return IfSolving(
         [=](const DriveSample& s) { return scheduled ? static_cast<double>(value(s)) : std::nan(""); });

@@ -190,8 +190,10 @@ TEST_F(ConfigTest, AssemblyNamesTheFileThatIsMissingOrWrong) {
         "[road]\nleft = 4.0\nright = 4.0\n");
   EXPECT_EQ(error_of(config), "");
 
-  SelectController(config, "nmpc");
-  EXPECT_THAT(error_of(config), HasSubstr("nmpc"));
+  for (const char* nonlinear : {"nmpc", "nmpc-affine"}) {
+    SelectController(config, nonlinear);
+    EXPECT_THAT(error_of(config), HasSubstr(std::string(nonlinear) + " is for lpvmpc alone"));
+  }
   SelectController(config, "lpv");
 
   config.dbc = folder_ / "none.dbc";

@@ -81,6 +81,8 @@ TEST(SweepSetup, WhatCannotBeIsRefusedInTheWordsOfTheCommandLine) {
             "--mu: 0.05 1 must be LO HI with 0.1 <= LO <= HI <= 1.2");
   EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("pid"); }),
               AllOf(HasSubstr("pid"), HasSubstr("lpv-standard")));
+  EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("nmpc-affine"); }),
+              AllOf(HasSubstr("nmpc-affine"), HasSubstr("lpv-standard, nmpc")));
   EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("lpv"); }),
               HasSubstr("lpv is named twice"));
   EXPECT_THAT(error([](SweepSetup& s) { s.controllers.clear(); }), HasSubstr("--controller"));
@@ -161,8 +163,21 @@ TEST(SweepDrive, DriveWithoutAnEngagementIsFailed) {
 
 TEST(SweepDrive, SlowestStartIsFastEnoughToEngage) {
   const tools::SweepRanges ranges{.speed = tools::kSpeedLimits, .mu = {}};
-  for (const std::string& controller : lpvmpcd::ControllerNames())
+  for (const std::string& controller : tools::SweepControllers())
     EXPECT_LT(tools::ConfigFor(controller, ranges).loop.engage_min_speed, 0.9 * ranges.speed.low);
+}
+
+// The cost of lpv-affine is measured against the nonlinear controller that is driven alike.
+TEST(SweepConfig, NmpcHasTheProblemOfLpvAffine) {
+  const lpvmpcd::Config affine = tools::ConfigFor("lpv-affine", {}), nmpc = tools::ConfigFor("nmpc", {});
+  EXPECT_EQ(nmpc.controller, lpvmpcd::ControllerKind::kNmpcAffine);
+  EXPECT_EQ(HorizonOf(nmpc), HorizonOf(affine));
+  EXPECT_EQ(nmpc.affine.mu, affine.affine.mu);
+  EXPECT_EQ(nmpc.affine.footprint.half_width, affine.affine.footprint.half_width);
+  EXPECT_EQ(nmpc.loop.command_delay, affine.loop.command_delay);
+  EXPECT_TRUE(nmpc.loop.by_progress);
+  // A drive's file names the kind, and is read again.
+  EXPECT_EQ(tools::ConfigFor(lpvmpcd::ControllerName(nmpc.controller), {}).controller, nmpc.controller);
 }
 
 // ---- the table

@@ -14,12 +14,13 @@ constexpr double kMeanDelay = 0.05;
 
 lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& ranges) {
   lpvmpcd::Config config;
-  lpvmpcd::SelectController(config, controller);
-  config.mpc.horizon = config.controller == lpvmpcd::ControllerKind::kNmpc ? 40 : 8;
+  const bool is_standard = controller == kCostStandard;
+  lpvmpcd::SelectController(
+      config, is_standard ? lpvmpcd::ControllerName(lpvmpcd::ControllerKind::kNmpcAffine) : controller);
   config.mpc.obstacle_margin += kVehicleFootprint.half_width + kCornerSwing;
   config.affine.footprint = kVehicleFootprint;
   config.affine.mu = ranges.mu.low;
-  if (config.controller == lpvmpcd::ControllerKind::kLpvAffine) {
+  if (IsAffine(config.controller)) {
     config.loop.command_delay = lpvmpcd::FromSeconds(kMeanDelay);
   }
   config.service.interface = "vcan0";  // in logs
@@ -28,9 +29,15 @@ lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& rang
   return config;
 }
 
+std::vector<std::string> SweepControllers() {
+  using enum lpvmpcd::ControllerKind;
+  return {lpvmpcd::ControllerName(kLpvAffine), lpvmpcd::ControllerName(kLpv),
+          lpvmpcd::ControllerName(kLpvStandard), kCostStandard};
+}
+
 config::RouteFile RouteFor(const RandomScenario& drawn, const lpvmpcd::Config& config) {
   config::RouteFile route = drawn.route;
-  if (config.controller == lpvmpcd::ControllerKind::kLpvAffine) return route;
+  if (IsAffine(config.controller)) return route;
   route.road.left -= drawn.scenario.footprint.half_width;
   route.road.right += drawn.scenario.footprint.half_width;
   return route;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "config/route_file.hpp"
 #include "daemon/config.hpp"
@@ -10,11 +11,17 @@
 
 namespace tools {
 
+inline constexpr const char* kCostStandard = "nmpc";  // the controller that the others' cost is compared with
+
 // The daemon's defaults, but for what follows from the ranges and, of a controller that takes the vehicle for a point,
 // from its rectangle: obstacles are enlarged by half its width and what a corner stands out. lpv-affine reckons with the
-// lowest μ of the range and the mean delay. It and NMPC plan 2 s ahead, the others 0.4 s as in the paper. Throws
-// std::invalid_argument: no such controller.
+// lowest μ of the range and the mean delay, and plans 2 s ahead; the paper's plan 0.4 s ahead as there. "nmpc" is here the
+// one with lpv-affine's problem, nmpc-affine, by which the cost is measured. Throws std::invalid_argument: no such
+// controller.
 [[nodiscard]] lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& ranges);
+
+// The names of those that a sweep drives.
+[[nodiscard]] std::vector<std::string> SweepControllers();
 
 // Its road: for a point, narrower by the vehicle's width.
 [[nodiscard]] config::RouteFile RouteFor(const RandomScenario& drawn, const lpvmpcd::Config& config);

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 #include <stdexcept>
 
-#include "daemon/config.hpp"
+#include "tools/sweep/sweep_config.hpp"
 
 namespace tools {
 
@@ -18,9 +18,11 @@ std::string SweepSetup::Describe() const {
 void CheckSetup(const SweepSetup& setup) {
   CheckRanges(setup.ranges);
   if (setup.controllers.empty()) throw std::invalid_argument("--controller: none is named");
+  const std::vector<std::string> known = SweepControllers();
   for (auto name = setup.controllers.begin(); name != setup.controllers.end(); ++name) {
-    lpvmpcd::Config config;
-    lpvmpcd::SelectController(config, *name);
+    if (std::ranges::find(known, *name) == known.end())
+      throw std::invalid_argument(
+          fmt::format("--controller: no \"{}\" in a sweep: {}", *name, fmt::join(known, ", ")));
     if (std::find(setup.controllers.begin(), name, *name) != name)
       throw std::invalid_argument(fmt::format("--controller: {} is named twice", *name));
   }
