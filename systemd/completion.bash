@@ -10,7 +10,7 @@ _lpvmpcd() {
       ;;
     --controller)
       local kinds="lpv-affine lpv lpv-standard"
-      [[ ${words[0]##*/} != lpvmpc ]] || kinds+=" nmpc" # which no daemon drives by
+      [[ ${words[0]##*/} != lpvmpc ]] || kinds+=" nmpc nmpc-affine" # which no daemon drives by
       _lpvmpcd_offer "$kinds"
       return
       ;;

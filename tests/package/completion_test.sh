@@ -44,7 +44,7 @@ Completes 'report run' lpvmpc r
 Completes 'step' lpvmpc bench ''
 Completes '--horizon' lpvmpc bench step --hor
 Completes '--map' lpvmpc paper --m
-Completes 'lpv lpv-affine lpv-standard nmpc' lpvmpc run --controller ''
+Completes 'lpv lpv-affine lpv-standard nmpc nmpc-affine' lpvmpc run --controller ''
 Completes '--out' lpvmpc run --scenario a.toml --o
 Completes 'drive' lpvmpc run --out ''
 Completes 'a.log drive' lpvmpc decode ''
