@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
   bool check = false, lockstep = false;
   app.add_option("--config", file, "configuration in TOML; required");
   app.add_option("--interface", interface, "CAN interface, instead of the configuration's");
-  app.add_option("--controller", controller, "lpv-affine, lpv or lpv-standard, instead of the configuration's");
+  app.add_option("--controller", controller,
+                 "lpv-affine, lpv or lpv-standard, instead of the configuration's");
   app.add_flag("--lockstep", lockstep, "time by the vehicle's counter, as lpvmpc-sim --lockstep wants it");
   app.add_flag("--check-config", check,
                "read the configuration and all that it names, say what it is, and end");

@@ -176,9 +176,9 @@ ordered_json DrivePage(const std::filesystem::path& run_dir) {
     sections.push_back(FansSection(record, lpvmpcd::HorizonOf(drive.config)));
   return {
       {"title", drive.scenario.name},
-      {"subtitle",
-       fmt::format("{}{}controller {}, N = {}", drive.scenario.description,
-                   drive.scenario.description.empty() ? "" : " · ", controller, lpvmpcd::HorizonOf(drive.config))},
+      {"subtitle", fmt::format("{}{}controller {}, N = {}", drive.scenario.description,
+                               drive.scenario.description.empty() ? "" : " · ", controller,
+                               lpvmpcd::HorizonOf(drive.config))},
       {"roads", {{"road", RoadData(drive.road)}}},
       {"drives",
        {{"drive",

@@ -90,7 +90,8 @@ TEST_F(CommandGateTest, AgeBeyondWhatTheFrameHoldsIsItsLargest) {
 
 TEST_F(CommandGateTest, EveryMessageHasItsOwnIdAndCounterAndIsProtected) {
   const std::array<const char*, 7> names = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
-                                            "SchedulingHealth", "ControllerDiagnostics", "ConstraintReport", "PlannedHorizon"};
+                                            "SchedulingHealth", "ControllerDiagnostics", "ConstraintReport",
+                                            "PlannedHorizon"};
   for (std::uint8_t i = 0; i < 31; ++i) {
     const std::vector<can::Frame> frames = OneOfEach();
     for (std::size_t message = 0; message < frames.size(); ++message) {
