@@ -61,7 +61,7 @@ class Controller {
   // Forgets the last plan: the next step schedules from the measured state alone.
   virtual void Reset() = 0;
   // After a step that was not solved: which hard constraint stands most in the way, and by how much. None where that
-  // is not known. For reports, not for the control path: it allocates and solves.
+  // is not known. It solves, and does not allocate, but for an NMPC's.
   [[nodiscard]] virtual std::optional<ConstraintViolation> Unsatisfied() const { return std::nullopt; }
 };
 

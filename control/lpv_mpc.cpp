@@ -26,6 +26,8 @@ LpvMpc::LpvMpc(const VehicleParameters& vehicle, const LpvMpcSettings& settings)
       qp_(settings.horizon),
       constraints_(Index(settings.horizon) + 1),
       solver_(settings.horizon, settings.qp),
+      elastic_(settings.horizon),
+      elastic_solver_(settings.horizon, settings.qp),
       guess_(settings.horizon),
       predicted_z_(Index(settings.horizon) + 1, State::Zero()),
       predicted_u_(Index(settings.horizon), Input::Zero()) {
@@ -156,19 +158,18 @@ std::optional<ConstraintViolation> LpvMpc::Unsatisfied() const {
   const auto gives_way = [&](std::size_t i, std::size_t j) {
     return !qp_.stages[i].rows[j].soft() && holds_state(constraints_[i][j]);
   };
-  OcpQp<8, 2> elastic = qp_;
-  for (std::size_t i = 0; i < elastic.stages.size(); ++i) {
-    auto& stage = elastic.stages[i];
+  elastic_ = qp_;
+  for (std::size_t i = 0; i < elastic_.stages.size(); ++i) {
+    auto& stage = elastic_.stages[i];
     for (std::size_t j = 0; j < Index(stage.row_count); ++j) {
       if (gives_way(i, j)) stage.rows[j].rho = kPenalty;
     }
   }
-  OcpQpSolver<8, 2> solver(settings_.horizon, settings_.qp);
-  if (solver.Solve(elastic).status != SolverStatus::kSolved) return std::nullopt;
+  if (elastic_solver_.Solve(elastic_).status != SolverStatus::kSolved) return std::nullopt;
   ConstraintViolation largest;
-  for (std::size_t i = 0; i < elastic.stages.size(); ++i) {
-    for (std::size_t j = 0; j < Index(elastic.stages[i].row_count); ++j) {
-      const double slack = solver.solution().stages[i].slack[j];
+  for (std::size_t i = 0; i < elastic_.stages.size(); ++i) {
+    for (std::size_t j = 0; j < Index(elastic_.stages[i].row_count); ++j) {
+      const double slack = elastic_solver_.solution().stages[i].slack[j];
       if (gives_way(i, j) && slack > largest.amount) {
         largest = {.constraint = constraints_[i][j], .amount = slack};
       }

@@ -53,6 +53,9 @@ class LpvMpc final : public Controller {
   OcpQp<8, 2> qp_;
   std::vector<std::array<Constraint, kMaxRows>> constraints_;  // what the rows of each stage stand for
   OcpQpSolver<8, 2> solver_;
+  // Room for Unsatisfied, which must not take it in a control cycle.
+  mutable OcpQp<8, 2> elastic_;
+  mutable OcpQpSolver<8, 2> elastic_solver_;
   OcpQpPoint<8, 2> guess_;
   Plan plan_;
   bool has_guess_ = false;          // guess_ holds the last step's solution, shifted

@@ -14,8 +14,7 @@ namespace {
 constexpr std::uint8_t kNoState = 15;
 constexpr int kNoPlanAge = 63;
 constexpr std::size_t kCommands = 2;
-constexpr std::size_t kReports = 4;  // status, health, diagnostics, header of the horizon
-constexpr std::size_t kMostObstacles = 16;
+constexpr std::size_t kReports = 5;  // status, health, diagnostics, constraint, header of the horizon
 constexpr int kShareForIterations =
     4;  // of the deadline, that may have passed before another iteration begins
 constexpr int kPeriodsOfSilence = 40;  // without a command, after which others have the vehicle
@@ -45,7 +44,7 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const dbc::VehicleBus& bu
   limiter_ = control::CommandLimiter(settings_.limits);
   const auto points = static_cast<std::size_t>(horizon) + 1;
   window_.resize(points);
-  moved_.reserve(kMostObstacles);
+  moved_.reserve(ObstacleAssembler::kMaxObstacles);
   frames_.reserve(kCommands + kReports + points);
 }
 
@@ -281,30 +280,15 @@ void ControlLoop::Solve(Time now, bool engaging) {
   }
 }
 
-// A plan that goes wrong, unless going on with the last one goes wrong no later: then the new one, which knows better,
-// is the lesser evil.
-bool ControlLoop::Hits() {
-  if (check_ == nullptr) {
-    return false;
-  }
-  report_.rejection = check_->Judge(z_, solve_->u, moved_);
-  if (!report_.rejection) {
-    return false;
-  }
-  if (!plan_.Covers(steps_.step())) {
-    return true;
-  }
-  const auto last = check_->Judge(z_, plan_.From(steps_.step()), moved_);
-  return !last || last->constraint.step > report_.rejection->constraint.step;
-}
-
 void ControlLoop::JudgePlan(bool late) {
   if (solve_ == nullptr) {
     return;
   }
   dbc::FaultCode refusal = late ? dbc::FaultCode::kDeadlineMissed : Refusal(*solve_, controller_->horizon());
-  if (refusal == dbc::FaultCode::kNone && Hits()) {
-    refusal = dbc::FaultCode::kPlanRejected;
+  if (refusal == dbc::FaultCode::kNone && check_ != nullptr) {
+    const CheckVerdict verdict = CheckPlan(*check_, z_, solve_->u, plan_.From(steps_.step()), moved_);
+    report_.rejection = verdict.violation;
+    if (verdict.ruled_out) refusal = dbc::FaultCode::kPlanRejected;
   }
   report_.plan_accepted = refusal == dbc::FaultCode::kNone;
   if (report_.plan_accepted) {

@@ -103,7 +103,6 @@ class ControlLoop {
   void TrackVehicle(const ModeInputs& inputs, bool engaging);
   void Solve(Time now, bool engaging);
   void JudgePlan(bool late);
-  [[nodiscard]] bool Hits();
   [[nodiscard]] bool AtRouteEnd() const;
   [[nodiscard]] std::optional<Cause> PlanFault(const ModeInputs& inputs, bool late) const;
   [[nodiscard]] control::LimitResult Command() const;

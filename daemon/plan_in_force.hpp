@@ -37,8 +37,9 @@ class PlanInForce {
   [[nodiscard]] const control::Input& At(std::int64_t step) const {
     return u_[static_cast<std::size_t>(step - made_)];
   }
-  // Requires Covers(step): the inputs from `step` on.
+  // The inputs from `step` on, none if it does not cover it.
   [[nodiscard]] std::span<const control::Input> From(std::int64_t step) const {
+    if (!Covers(step)) return {};
     return std::span(u_).subspan(static_cast<std::size_t>(step - made_));
   }
 

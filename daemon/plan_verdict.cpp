@@ -30,6 +30,16 @@ dbc::FaultCode Refusal(const control::Plan& plan, int horizon) {
   return dbc::FaultCode::kSolverNumericalFailure;
 }
 
+CheckVerdict CheckPlan(control::PlanCheck& check, const control::State& z,
+                       std::span<const control::Input> plan, std::span<const control::Input> last,
+                       std::span<const control::Obstacle> obstacles) {
+  CheckVerdict verdict{.violation = check.Judge(z, plan, obstacles), .ruled_out = false};
+  if (!verdict.violation) return verdict;
+  const auto of_last = check.Judge(z, last, obstacles);
+  verdict.ruled_out = !of_last || of_last->constraint.step > verdict.violation->constraint.step;
+  return verdict;
+}
+
 dbc::SolverStatus ToBus(control::SolverStatus status) {
   switch (status) {
     case control::SolverStatus::kSolved:

@@ -668,12 +668,15 @@ TEST_F(ControlLoopTest, LatePlanDoesNotEngage) {
 }
 
 TEST_F(ControlLoopTest, NothingIsAllocatedInACycle) {
-  vehicle_.obstacles = {{.object_id = 1, .X = 40.0}, {.object_id = 2, .X = 50.0}};
-  Engage();
+  for (std::uint8_t id = 0; id < 15; ++id) {
+    vehicle_.obstacles.push_back({.object_id = id, .X = 40.0 + 5.0 * id});
+  }
   std::size_t allocations = 0;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 36; ++i) {  // from the first on, and the driver's request with it
     Advance();
-    controller_.status = i % 3 == 0 ? control::SolverStatus::kInfeasible : control::SolverStatus::kSolved;
+    vehicle_.request.engage = i >= 5;
+    controller_.status =
+        i > 5 && i % 3 == 0 ? control::SolverStatus::kInfeasible : control::SolverStatus::kSolved;
     const auto frames = vehicle_.All();
     const std::size_t before = test_support::Allocations();
     for (const can::Frame& frame : frames) {
