@@ -21,16 +21,15 @@ AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const Course& course,
       solver_({.tolerance = settings.tolerance,
                .max_iterations = settings.max_iterations,
                .scaled = false,
-               .cold_barrier = 100.0}) {
+               .cold_barrier = 100.0}),
+      prediction_(problem.horizon) {
   const std::size_t N = Index(problem.horizon);
   plan_.z.assign(N + 1, State::Zero());
   plan_.u.assign(N, Input::Zero());
-  z_hat_ = plan_.z;
-  u_hat_ = plan_.u;
 }
 
 void AffineNmpc::Reset() {
-  has_prediction_ = false;
+  prediction_.Drop();
   has_duals_ = false;
   task_.Reset();
 }
@@ -41,14 +40,14 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
   // A place on the course or a side that comes of such a value would be one by chance, and stay.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
-    ShiftPrediction();
+    prediction_.Shift();
     return plan_;
   }
   task_.Begin(input.z, input.obstacles);
   if (task_.waiting()) {
     task_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
-    has_prediction_ = false;
+    prediction_.Drop();
     has_duals_ = false;
   } else {
     Solve(input.u_previous);
@@ -56,23 +55,13 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
   return plan_;
 }
 
-void AffineNmpc::Predict() {
-  if (!has_prediction_) {
-    std::ranges::copy(task_.reference(), z_hat_.begin());
-    std::ranges::copy(task_.reference_input(), u_hat_.begin());
-  }
-  z_hat_[0] = task_.z();
-  if (!has_prediction_) return;
-  for (std::size_t i = 0; i < u_hat_.size(); ++i) z_hat_[i + 1] = model_.Step(z_hat_[i], u_hat_[i]);
-}
-
 // A round that fails leaves the plan before it.
 void AffineNmpc::Solve(const Input& u_previous) {
-  Predict();
+  prediction_.Begin(task_, model_);
   for (int round = 0; round < settings_.rounds; ++round) {
     SolverStatus status = SolverStatus::kNumericalFailure;
     // An obstacle that finds no room in the problem must not be ignored.
-    if (task_.Bound(z_hat_)) {
+    if (task_.Bound(prediction_.z())) {
       const AffineNmpcProblem last = problem_;
       problem_.Set(task_, u_previous);
       point_ = Start(last, round == 0 ? 1 : 0);
@@ -84,18 +73,17 @@ void AffineNmpc::Solve(const Input& u_previous) {
     if (round == 0 || has_duals_) plan_.status = status;
     if (!has_duals_) break;
     const double change = ReadPlan();
-    std::ranges::copy(plan_.z, z_hat_.begin());
-    std::ranges::copy(plan_.u, u_hat_.begin());
-    has_prediction_ = true;
+    prediction_.Take(plan_);
     if (change <= settings_.converged) break;
   }
-  ShiftPrediction();
+  prediction_.Shift();
 }
 
 // The prediction, with the multipliers of the last solution, of which each step takes those that the step `shift` later
 // had. A row of the body that was not there has none yet.
 NonlinearPoint AffineNmpc::Start(const AffineNmpcProblem& last, int shift) const {
-  NonlinearPoint start{.x = problem_.PointOf(z_hat_, u_hat_), .z_lo = {}, .z_hi = {}, .lambda = {}};
+  NonlinearPoint start{
+      .x = problem_.PointOf(prediction_.z(), prediction_.u()), .z_lo = {}, .z_hi = {}, .lambda = {}};
   if (!has_duals_) return start;
   start.z_lo.assign(start.x.size(), 0.0);
   start.z_hi.assign(start.x.size(), 0.0);
@@ -139,11 +127,8 @@ double AffineNmpc::ReadPlan() {
   for (std::size_t i = 1; i < plan_.z.size(); ++i) {
     plan_.z[i] = problem_.StateOf(point_.x, static_cast<int>(i));
     plan_.u[i - 1] = problem_.InputOf(point_.x, static_cast<int>(i) - 1);
-    measure(plan_.u[i - 1][kDelta], u_hat_[i - 1][kDelta], kScheduledDelta);
-    for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
-      measure(plan_.z[i][kScheduledStates[j]], z_hat_[i][kScheduledStates[j]], j);
-    }
   }
+  prediction_.Compare(plan_, measure);
   MeasureRelaxation();
   return change;
 }
@@ -158,11 +143,6 @@ void AffineNmpc::MeasureRelaxation() {
       }
     }
   }
-}
-
-void AffineNmpc::ShiftPrediction() {
-  std::shift_left(z_hat_.begin(), z_hat_.end(), 1);
-  std::shift_left(u_hat_.begin(), u_hat_.end(), 1);
 }
 
 }  // namespace control

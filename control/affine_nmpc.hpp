@@ -19,6 +19,7 @@
 #include "control/driving_task.hpp"
 #include "control/ipopt_solver.hpp"
 #include "control/lpv_affine_settings.hpp"
+#include "control/prediction.hpp"
 #include "control/vehicle_parameters.hpp"
 
 namespace control {
@@ -43,12 +44,10 @@ class AffineNmpc final : public Controller {
   void Reset() override;
 
  private:
-  void Predict();
   void Solve(const Input& u_previous);
   [[nodiscard]] NonlinearPoint Start(const AffineNmpcProblem& last, int shift) const;
   [[nodiscard]] double ReadPlan();
   void MeasureRelaxation();
-  void ShiftPrediction();
 
   AffineNmpcSettings settings_;
   Eigen::Vector4d radii_;
@@ -59,10 +58,7 @@ class AffineNmpc final : public Controller {
   NonlinearPoint point_;    // of the last solve, of problem_
   bool has_duals_ = false;  // point_ is a solution
   Plan plan_;
-
-  bool has_prediction_ = false;  // false: no plan yet, the reference is the prediction
-  std::vector<State> z_hat_;     // ẑ_0..ẑ_N
-  std::vector<Input> u_hat_;     // û_0..û_{N−1}
+  Prediction prediction_;
 };
 
 }  // namespace control

@@ -1,11 +1,11 @@
 #include "control/affine_nmpc_problem.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdlib>
 #include <numbers>
 
 #include "control/ocp_qp.hpp"
+#include "control/plane.hpp"
 
 namespace control {
 namespace {
@@ -34,10 +34,6 @@ std::size_t Index(int i) {
 template <typename Vector>
 Eigen::Map<const Vector> At(std::span<const double> x, int i) {
   return Eigen::Map<const Vector>(x.subspan(Index(i), Vector::SizeAtCompileTime).data());
-}
-
-Vector2d Turned(double psi, const Vector2d& fixed) {
-  return Eigen::Rotation2Dd(psi) * fixed;
 }
 
 }  // namespace

@@ -1,32 +1,16 @@
 #include "control/driving_task.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "control/keep_out.hpp"
 #include "control/ocp_qp.hpp"
+#include "control/plane.hpp"
 
 namespace control {
 namespace {
 
 using Eigen::Vector2d;
-
-Vector2d Along(double angle) {
-  return {std::cos(angle), std::sin(angle)};
-}
-
-Vector2d Left(double angle) {
-  return {-std::sin(angle), std::cos(angle)};
-}
-
-Vector2d Position(const State& z) {
-  return {z[kX], z[kY]};
-}
-
-Vector2d Turned(double psi, const Vector2d& fixed) {
-  return Eigen::Rotation2Dd(psi) * fixed;
-}
 
 }  // namespace
 
@@ -128,7 +112,7 @@ bool DrivingTask::Add(std::size_t i, const BodyRow& row) {
 
 // For the middles of the front and the rear end; the corners are half a width beside them.
 bool DrivingTask::AddRoad(std::size_t i, const State& z_hat, const RoutePoint& beside) {
-  const Vector2d left = Left(beside.psi), course(beside.X, beside.Y);
+  const Vector2d left = LeftOf(beside.psi), course(beside.X, beside.Y);
   const double inside = settings_.footprint.half_width + settings_.road_margin;
   bool fits = true;
   for (const int end : {0, 1}) {

@@ -1,8 +1,9 @@
 #include "control/keep_out.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "control/plane.hpp"
 
 namespace control {
 namespace {
@@ -38,9 +39,9 @@ double SupportOf(const Obstacle& obstacle, const Vector2d& direction) {
 std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide side, const State& z,
                                           double psi_road, const Footprint& footprint, double margin,
                                           double reach) {
-  const Vector2d t(std::cos(psi_road), std::sin(psi_road));
+  const Vector2d t = Along(psi_road);
   const double sign = side == PassingSide::kLeft ? 1.0 : -1.0;
-  const Vector2d n = sign * Vector2d(-t.y(), t.x());
+  const Vector2d n = sign * LeftOf(psi_road);
   // Road axes: t, and n to the side on which it is passed. The vehicle covers from `rear` to `front` along t, from the
   // centre of the obstacle. Of the edge over it that point counts which is nearest to the widest one.
   const Eigen::Matrix2d S = ShapeOf(obstacle, margin);
@@ -61,8 +62,7 @@ std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide 
 }
 
 HalfSpace HalfSpaceBefore(const Obstacle& obstacle, double psi_road, double margin) {
-  const Vector2d back(-std::cos(psi_road), -std::sin(psi_road));
-  return Beyond(obstacle, ShapeOf(obstacle, margin), back);
+  return Beyond(obstacle, ShapeOf(obstacle, margin), -Along(psi_road));
 }
 
 }  // namespace control

@@ -16,16 +16,15 @@ LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const Course& cours
       task_(vehicle, course, settings),
       qp_(settings.horizon),
       solver_(settings.horizon, settings.qp),
-      constraints_(Index(settings.horizon) + 1) {
+      constraints_(Index(settings.horizon) + 1),
+      prediction_(settings.horizon) {
   const std::size_t N = Index(settings.horizon);
   plan_.z.assign(N + 1, State::Zero());
   plan_.u.assign(N, Input::Zero());
-  z_hat_ = plan_.z;
-  u_hat_ = plan_.u;
 }
 
 void LpvAffineMpc::Reset() {
-  has_prediction_ = false;
+  prediction_.Drop();
   trust_scale_ = 1.0;
   task_.Reset();
 }
@@ -39,7 +38,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   // A place on the course or a side that comes of such a value would be one by chance, and stay.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
-    ShiftPrediction();
+    prediction_.Shift();
     return plan_;
   }
   task_.Begin(input.z, input.obstacles);
@@ -47,7 +46,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   if (task_.waiting()) {
     task_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
-    has_prediction_ = false;
+    prediction_.Drop();
   } else {
     Solve(input);
   }
@@ -60,9 +59,9 @@ void LpvAffineMpc::CompareScheduling() {
   constexpr double kPoor = 0.5, kGood = 0.25;      // of the present radii
   constexpr double kNarrower = 0.8, kWider = 1.1;  // per step
   constexpr double kNarrowest = 0.5, kWidest = 2.0;
-  if (!has_prediction_) return;
+  if (!prediction_.exists()) return;
   for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
-    const double error = std::abs(task_.z()[kScheduledStates[j]] - z_hat_[0][kScheduledStates[j]]);
+    const double error = std::abs(task_.z()[kScheduledStates[j]] - prediction_.z()[0][kScheduledStates[j]]);
     const double radius = settings_.trust_radius[static_cast<Eigen::Index>(j)];
     plan_.scheduling_error = std::max(plan_.scheduling_error, error / radius);
   }
@@ -72,22 +71,11 @@ void LpvAffineMpc::CompareScheduling() {
   trust_scale_ = std::clamp(factor * trust_scale_, kNarrowest, kWidest);
 }
 
-// ẑ is where the shifted plan leads from the measured state. Without a plan it is the reference, which is near.
-void LpvAffineMpc::Predict() {
-  if (!has_prediction_) {
-    std::ranges::copy(task_.reference(), z_hat_.begin());
-    std::ranges::copy(task_.reference_input(), u_hat_.begin());
-  }
-  z_hat_[0] = task_.z();
-  if (!has_prediction_) return;
-  for (std::size_t i = 0; i < u_hat_.size(); ++i) z_hat_[i + 1] = model_.Step(z_hat_[i], u_hat_[i]);
-}
-
 // QPs, each about the plan of the one before. One that fails leaves the plan before it.
 void LpvAffineMpc::Solve(const ControllerInput& input) {
-  const int least = has_prediction_ ? 1 : settings_.first_iterations;
+  const int least = prediction_.exists() ? 1 : settings_.first_iterations;
   const int most = std::max(least, settings_.iterations);
-  Predict();
+  prediction_.Begin(task_, model_);
   for (int k = 0; k < most; ++k) {
     if (k >= least && input.time_left != nullptr && !(*input.time_left)()) break;
     // An obstacle that finds no room in the problem must not be ignored.
@@ -99,24 +87,17 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
     }
     plan_.status = result.status;
     const double change = ReadPlan();
-    std::ranges::copy(plan_.z, z_hat_.begin());
-    std::ranges::copy(plan_.u, u_hat_.begin());
-    has_prediction_ = true;
+    prediction_.Take(plan_);
     if (change <= settings_.converged) break;
   }
-  ShiftPrediction();
-}
-
-void LpvAffineMpc::ShiftPrediction() {
-  std::shift_left(z_hat_.begin(), z_hat_.end(), 1);
-  std::shift_left(u_hat_.begin(), u_hat_.end(), 1);
+  prediction_.Shift();
 }
 
 bool LpvAffineMpc::BuildQp(const Input& u_previous) {
   const int N = settings_.horizon;
   const auto z_ref = task_.reference();
   const auto u_ref_before = [&](int i) { return task_.reference_input()[Index(std::max(i - 1, 0))]; };
-  bool fits = task_.Bound(z_hat_);
+  bool fits = task_.Bound(prediction_.z());
   qp_.x0 << task_.z() - z_ref[0], u_previous - u_ref_before(0);
   for (int i = 0; i <= N; ++i) {
     auto& stage = qp_.stages[Index(i)];
@@ -127,10 +108,10 @@ bool LpvAffineMpc::BuildQp(const Input& u_previous) {
     if (i > 0) {  // the measured state cannot be changed
       fits &= AddFrictionRows(i);
       fits &= AddBodyRows(i);
-      if (settings_.trust_region && has_prediction_) fits &= AddTrustRegion(i);
+      if (settings_.trust_region && prediction_.exists()) fits &= AddTrustRegion(i);
     }
     if (i == N) break;
-    const AffineModel model = model_.Expand(z_hat_[Index(i)], u_hat_[Index(i)]);
+    const AffineModel model = model_.Expand(prediction_.z()[Index(i)], prediction_.u()[Index(i)]);
     stage.A.setIdentity();
     stage.A.topLeftCorner<kStates, kStates>() = model.linear.A;
     stage.A.topRightCorner<kStates, kInputs>() = model.linear.B;
@@ -150,7 +131,7 @@ double LpvAffineMpc::ReadPlan() {
   double change = 0.0;
   plan_.active_trust_rows = 0;
   plan_.largest_slack = 0.0;
-  const bool bounded = settings_.trust_region && has_prediction_;
+  const bool bounded = settings_.trust_region && prediction_.exists();
   const auto measure = [&](double value, double predicted, std::size_t j) {
     const double deviation =
         std::abs(value - predicted) / settings_.trust_radius[static_cast<Eigen::Index>(j)];
@@ -163,11 +144,8 @@ double LpvAffineMpc::ReadPlan() {
   for (std::size_t i = 1; i < plan_.z.size(); ++i) {
     plan_.z[i] = task_.reference()[i] + stages[i].x.head<kStates>();
     plan_.u[i - 1] = task_.reference_input()[i - 1] + stages[i].x.tail<kInputs>();
-    measure(plan_.u[i - 1][kDelta], u_hat_[i - 1][kDelta], kScheduledDelta);
-    for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
-      measure(plan_.z[i][kScheduledStates[j]], z_hat_[i][kScheduledStates[j]], j);
-    }
   }
+  prediction_.Compare(plan_, measure);
   MeasureRelaxation();
   return change;
 }

@@ -26,6 +26,7 @@
 #include "control/driving_task.hpp"
 #include "control/lpv_affine_settings.hpp"
 #include "control/ocp_qp_solver.hpp"
+#include "control/prediction.hpp"
 #include "control/vehicle_parameters.hpp"
 
 namespace control {
@@ -46,9 +47,7 @@ class LpvAffineMpc final : public Controller {
 
  private:
   void CompareScheduling();
-  void Predict();
   void Solve(const ControllerInput& input);
-  void ShiftPrediction();
   [[nodiscard]] bool BuildQp(const Input& u_previous);
   [[nodiscard]] bool AddInputRows(const Input& u_previous, int i);
   [[nodiscard]] bool AddFrictionRows(int i);
@@ -66,10 +65,8 @@ class LpvAffineMpc final : public Controller {
   std::vector<std::array<Constraint, kMaxRows>> constraints_;  // what the rows of each stage stand for
   Plan plan_;
 
-  bool has_prediction_ = false;  // false: no plan yet, the reference is the prediction
-  std::vector<State> z_hat_;     // ẑ_0..ẑ_N
-  std::vector<Input> u_hat_;     // û_0..û_{N−1}
-  double trust_scale_ = 1.0;     // of the trust region's radii
+  Prediction prediction_;
+  double trust_scale_ = 1.0;  // of the trust region's radii
 };
 
 }  // namespace control

@@ -1,11 +1,11 @@
 // The rows of LpvAffineMpc's QP, each to first order about (ẑ, û) and in deviations from the reference.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdlib>
 #include <numbers>
 
 #include "control/lpv_affine_mpc.hpp"
 #include "control/lpv_affine_terms.hpp"
+#include "control/plane.hpp"
 
 namespace control {
 
@@ -47,7 +47,7 @@ bool LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
 bool LpvAffineMpc::AddFrictionRows(int i) {
   auto& stage = qp_.stages[Index(i)];
   const State& z_ref = task_.reference()[Index(i)];
-  const State& z_hat = z_hat_[Index(i)];
+  const State& z_hat = prediction_.z()[Index(i)];
   const double weight = settings_.state_penalty;
   bool fits = stage.AddStateBound(kUpsilon, -z_ref[kUpsilon], settings_.upsilon_max - z_ref[kUpsilon], weight,
                                   weight);
@@ -69,17 +69,16 @@ bool LpvAffineMpc::AddFrictionRows(int i) {
 
 // Where a point of the body is, to first order in ψ.
 bool LpvAffineMpc::AddBodyRows(int i) {
-  const State& z_hat = z_hat_[Index(i)];
+  const State& z_hat = prediction_.z()[Index(i)];
   const State& z_ref = task_.reference()[Index(i)];
   bool fits = true;
   for (const BodyRow& row : task_.rows(Index(i))) {
-    const Vector2d arm = Eigen::Rotation2Dd(z_hat[kPsi]) * row.fixed;
+    const Vector2d arm = Turned(z_hat[kPsi], row.fixed);
     VectorX C = VectorX::Zero();
     C[kX] = row.normal.x();
     C[kY] = row.normal.y();
     C[kPsi] = row.normal.dot(Vector2d(-arm.y(), arm.x()));
-    const double at_ref =
-        row.normal.dot(Vector2d(z_ref[kX], z_ref[kY]) + arm) + C[kPsi] * (z_ref[kPsi] - z_hat[kPsi]);
+    const double at_ref = row.normal.dot(Position(z_ref) + arm) + C[kPsi] * (z_ref[kPsi] - z_hat[kPsi]);
     const bool road = row.constraint.kind == ConstraintKind::kRoad;
     const double weight = road ? settings_.road_penalty : settings_.obstacle_penalty;
     fits &= qp_.stages[Index(i)].AddRow(C, Input::Zero(), row.lo - at_ref, row.hi - at_ref, weight, weight);
@@ -98,9 +97,9 @@ bool LpvAffineMpc::AddTrustRegion(int i) {
   };
   for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
     const int x = kScheduledStates[j];
-    add(x, z_hat_[Index(i)][x] - task_.reference()[Index(i)][x], j);
+    add(x, prediction_.z()[Index(i)][x] - task_.reference()[Index(i)][x], j);
   }
-  add(kU + kDelta, u_hat_[Index(i - 1)][kDelta] - task_.reference_input()[Index(i - 1)][kDelta],
+  add(kU + kDelta, prediction_.u()[Index(i - 1)][kDelta] - task_.reference_input()[Index(i - 1)][kDelta],
       kScheduledDelta);
   return fits;
 }

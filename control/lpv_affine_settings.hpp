@@ -4,6 +4,7 @@
 #include "control/footprint.hpp"
 #include "control/ocp_qp_solver.hpp"
 #include "control/types.hpp"
+#include "control/vehicle_parameters.hpp"
 
 namespace control {
 
@@ -46,7 +47,6 @@ struct LpvAffineSettings {
 
 // Radius of the friction circle that a plan may use [m/s²].
 [[nodiscard]] inline double Grip(const LpvAffineSettings& settings) {
-  constexpr double kGravity = 9.81;  // [m/s²]
   return settings.friction_share * settings.mu * kGravity;
 }
 

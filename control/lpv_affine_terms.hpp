@@ -1,4 +1,4 @@
-// What the parts of LpvAffineMpc have in common.
+// What LpvAffineMpc, its rows and AffineNmpc have in common.
 #pragma once
 
 #include <array>
@@ -8,7 +8,6 @@
 
 namespace control::lpv_affine {
 
-inline constexpr double kGravity = 9.81;          // [m/s²]
 inline constexpr double kLeastRelaxation = 1e-3;  // below it a slack is the solver's inaccuracy
 inline constexpr int kU = kStates;                // index of u_{k−1} in the QP's state
 // The scheduled quantities in the order of the trust radii: three states, then δ.

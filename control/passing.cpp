@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "control/keep_out.hpp"
+#include "control/plane.hpp"
 
 namespace control {
 namespace {
@@ -38,7 +39,7 @@ PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles
   const Obstacle& obstacle = obstacles[index];
   const RouteProjection place = course_->Project({obstacle.X, obstacle.Y}, s);
   const double psi = course_->At(place.s).psi;
-  const Eigen::Vector2d along(std::cos(psi), std::sin(psi)), left(-along.y(), along.x());
+  const Eigen::Vector2d along = Along(psi), left = LeftOf(psi);
   const Eigen::Vector2d velocity(obstacle.velocity_X, obstacle.velocity_Y);
   decision = {.passage = Passage::kIgnored,
               .s = place.s,

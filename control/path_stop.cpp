@@ -3,22 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/plane.hpp"
+#include "control/steady_cornering.hpp"
+
 namespace control {
 namespace {
 
 constexpr int kMostPoints = 2000;  // looked at on the way along the reference
-
-Eigen::Vector2d Position(const State& z) {
-  return {z[kX], z[kY]};
-}
-
-Eigen::Vector2d Along(double angle) {
-  return {std::cos(angle), std::sin(angle)};
-}
-
-Eigen::Vector2d Left(double angle) {
-  return {-std::sin(angle), std::cos(angle)};
-}
 
 }  // namespace
 
@@ -28,7 +19,7 @@ PathStop::PathStop(const PathStopSettings& settings, const Reference& reference)
 void PathStop::Start(const State& z, int k) {
   k_ = k;
   Advance(&z, Input::Zero());
-  offset_ = Left(At(k_)[kPsi]).dot(p_ - Position(At(k_)));
+  offset_ = LeftOf(At(k_)[kPsi]).dot(p_ - Position(At(k_)));
 }
 
 void PathStop::Advance(const State* measured, const Input& applied) {
@@ -39,14 +30,14 @@ void PathStop::Advance(const State* measured, const Input& applied) {
     speed_ = z.segment<2>(kUpsilon).norm();
     course_ = psi_ + (speed_ > settings_.min_steering_speed ? std::atan2(z[kNu], z[kUpsilon]) : 0.0);
   } else {
-    const double curvature = applied[kDelta] / SteeringPerCurvature();
+    const double curvature = applied[kDelta] / SteeringPerCurvature(settings_.vehicle, speed_);
     const double next = std::max(speed_ + settings_.t_s * applied[kAcceleration], 0.0);
     const double way = 0.5 * (speed_ + next) * settings_.t_s;
     psi_ += 0.5 * way * curvature;
-    p_ += way * Along(psi_ + curvature * SlipPerCurvature());
+    p_ += way * Along(psi_ + curvature * SlipPerCurvature(settings_.vehicle, speed_));
     psi_ += 0.5 * way * curvature;
     speed_ = next;
-    course_ = psi_ + curvature * SlipPerCurvature();
+    course_ = psi_ + curvature * SlipPerCurvature(settings_.vehicle, speed_);
   }
   k_ = Nearest(p_, k_);
 }
@@ -54,7 +45,7 @@ void PathStop::Advance(const State* measured, const Input& applied) {
 void PathStop::Follow(std::span<const State> plan) {
   const Eigen::Vector2d end = Position(plan.back());
   const State z = At(Nearest(end, k_));
-  offset_ = Left(z[kPsi]).dot(end - Position(z));
+  offset_ = LeftOf(z[kPsi]).dot(end - Position(z));
 }
 
 double PathStop::Steering(double applied) const {
@@ -65,11 +56,12 @@ double PathStop::Steering(double applied) const {
   Eigen::Vector2d to_target = Eigen::Vector2d::Zero();
   for (int k = k_; k < k_ + kMostPoints && to_target.norm() < look_ahead; ++k) {
     const State z = At(k);
-    to_target = Position(z) + offset_ * Left(z[kPsi]) - p_;
+    to_target = Position(z) + offset_ * LeftOf(z[kPsi]) - p_;
   }
-  const double curvature = 2.0 * Left(course_).dot(to_target) / to_target.squaredNorm();
+  const double curvature = 2.0 * LeftOf(course_).dot(to_target) / to_target.squaredNorm();
   const double step = settings_.max_steering_rate * settings_.t_s;
-  return std::clamp(curvature * SteeringPerCurvature(), applied - step, applied + step);
+  return std::clamp(curvature * SteeringPerCurvature(settings_.vehicle, speed_), applied - step,
+                    applied + step);
 }
 
 State PathStop::At(int k) const {
@@ -82,18 +74,6 @@ int PathStop::Nearest(const Eigen::Vector2d& p, int from) const {
   int k = from;
   while (k < from + kMostPoints && (p - Position(At(k + 1))).norm() < (p - Position(At(k))).norm()) ++k;
   return k;
-}
-
-double PathStop::SteeringPerCurvature() const {
-  const VehicleParameters& v = settings_.vehicle;
-  const double wheelbase = v.l_f + v.l_r;
-  const double understeer = v.m / (2.0 * wheelbase) * (v.l_r / v.C_alpha_f - v.l_f / v.C_alpha_r);
-  return wheelbase + understeer * speed_ * speed_;
-}
-
-double PathStop::SlipPerCurvature() const {
-  const VehicleParameters& v = settings_.vehicle;
-  return v.l_r - v.m * v.l_f * speed_ * speed_ / (2.0 * v.C_alpha_r * (v.l_f + v.l_r));
 }
 
 }  // namespace control

@@ -2,10 +2,8 @@
 // CMU-RI-TR-92-01) with the single-track model's steady state in the place of its kinematics:
 //
 //   κ = 2 y_t / d²            circle through the vehicle, along its course, and a point of the path at distance d
-//   δ = κ (L + K υ²)          L = l_f + l_r,  K = m/(2L) (l_r/C_αf − l_f/C_αr)       understeer gradient
-//   β = κ (l_r − m l_f υ²/(2 C_αr L))     angle between heading and course
 //
-// Both hold down to standstill, where the dynamic model does not. The path is the reference, shifted sideways to where
+// with δ and the angle between heading and course of steady_cornering.hpp. The path is the reference, shifted sideways to where
 // the last plan ends: the road's course, without steering back into what the plan went round. Without a measured
 // state the vehicle's place is reckoned from the commands.
 #pragma once
@@ -48,8 +46,6 @@ class PathStop {
  private:
   [[nodiscard]] State At(int k) const;
   [[nodiscard]] int Nearest(const Eigen::Vector2d& p, int from) const;
-  [[nodiscard]] double SteeringPerCurvature() const;
-  [[nodiscard]] double SlipPerCurvature() const;
 
   PathStopSettings settings_;
   const Reference* reference_;

@@ -6,19 +6,19 @@
 #include <limits>
 
 #include "control/keep_out.hpp"
+#include "control/plane.hpp"
 
 namespace control {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kGravity = 9.81;        // [m/s²]
 constexpr double kRoadTolerance = 0.02;  // [m]
 constexpr double kGripTolerance = 0.3;   // [m/s²]
 constexpr double kSmallest = 1e-3;       // semi-axis of an obstacle [m]
 
 Vector2d CornerAt(const State& z, const Vector2d& corner) {
-  return Vector2d(z[kX], z[kY]) + Eigen::Rotation2Dd(z[kPsi]) * corner;
+  return Position(z) + Turned(z[kPsi], corner);
 }
 
 // Least distance of the origin to the segment from a to b.
@@ -40,7 +40,7 @@ PlanCheck::PlanCheck(const PlanCheckSettings& settings, const Course& course)
 
 // How far the corner that is furthest out is off the road; negative: all are on it. `s` follows the vehicle.
 double PlanCheck::OffRoad(const State& z, double& s) const {
-  s = course_->Project({z[kX], z[kY]}, s).s;
+  s = course_->Project(Position(z), s).s;
   double out = -std::numeric_limits<double>::infinity();
   for (const Vector2d& corner : settings_.footprint.Corners()) {
     const double lateral = course_->Project(CornerAt(z, corner), s).lateral;
@@ -76,8 +76,7 @@ double PlanCheck::Touched(const State& z, const Obstacle& obstacle) const {
 std::optional<ConstraintViolation> PlanCheck::Judge(const State& z, std::span<const Input> u,
                                                     std::span<const Obstacle> obstacles) {
   State now = z;
-  const Vector2d position(z[kX], z[kY]);
-  s_ = (s_ ? course_->Project(position, *s_) : course_->Find(position, z[kPsi])).s;
+  s_ = (s_ ? course_->Project(Position(z), *s_) : course_->Find(Position(z), z[kPsi])).s;
   double s = *s_;
   const double off_road = std::max(OffRoad(now, s), 0.0) + kRoadTolerance;
   const double grip = std::max(BeyondGrip(now, Input::Zero()), 0.0) + kGripTolerance;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/steady_cornering.hpp"
+
 namespace control {
 namespace {
 
@@ -41,10 +43,6 @@ double ProgressReference::Deceleration(double s, double upsilon, std::span<const
 
 void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
                              std::span<Input> u, std::span<double> s) const {
-  const double wheelbase = vehicle_.l_f + vehicle_.l_r;
-  const double understeer = vehicle_.m / (2.0 * wheelbase) *
-                            (vehicle_.l_r / vehicle_.C_alpha_f - vehicle_.l_f / vehicle_.C_alpha_r);
-  const double slip = vehicle_.m * vehicle_.l_f / (2.0 * vehicle_.C_alpha_r * wheelbase);
   const double up = course_->limits().acceleration * t_s_;
   const double down = Deceleration(s_0, upsilon, stops) * t_s_;
 
@@ -53,7 +51,7 @@ void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLin
                             std::max(upsilon, 0.0) + kSpeedTolerance);
   for (std::size_t i = 0; i < z.size(); ++i) {
     const RoutePoint point = course_->At(place);
-    const double lever = vehicle_.l_r - slip * speed * speed;
+    const double lever = SlipPerCurvature(vehicle_, speed);
     z[i] << point.X, point.Y, speed, point.curvature * speed * lever, point.psi - point.curvature * lever,
         point.curvature * speed;
     s[i] = place;
@@ -61,7 +59,7 @@ void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLin
     const double t = static_cast<double>(i + 1) * t_s_;
     const double next =
         std::clamp(SpeedAt(place + speed * t_s_, t, stops), std::max(speed - down, 0.0), speed + up);
-    u[i] << point.curvature * (wheelbase + understeer * speed * speed), (next - speed) / t_s_;
+    u[i] << point.curvature * SteeringPerCurvature(vehicle_, speed), (next - speed) / t_s_;
     place += 0.5 * (speed + next) * t_s_;
     speed = next;
   }

@@ -1,11 +1,8 @@
 // The reference by progress: from the point of the course beside the vehicle on, as fast as the course's profile, what
 // may stand in the way, and a comfortable acceleration allow. A vehicle that is late or early is not dragged.
 //
-// Each state is that of steady cornering on the course (single-track model with linear tyres), so that on a bend no
-// error remains that is none:
-//
-//   ω = κ υ,   ν = κ υ (l_r − m l_f υ²/(2 C_αr L)),   ψ = ψ_course − ν/υ,   δ = κ (L + K υ²)
-//   L = l_f + l_r,   K = m/(2 L) (l_r/C_αf − l_f/C_αr)
+// Each state is that of steady cornering on the course (steady_cornering.hpp), so that on a bend no error remains that is
+// none: ω = κ υ, ψ = ψ_course − ν/υ.
 #pragma once
 
 #include <span>

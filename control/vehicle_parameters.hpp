@@ -3,6 +3,8 @@
 
 namespace control {
 
+inline constexpr double kGravity = 9.81;  // [m/s²]
+
 struct VehicleParameters {
   double C_alpha_f = 156e3;  // cornering stiffness of one front tyre [N/rad]
   double C_alpha_r = 193e3;  // cornering stiffness of one rear tyre [N/rad]

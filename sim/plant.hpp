@@ -21,7 +21,7 @@
 
 namespace sim {
 
-inline constexpr double kGravity = 9.81;   // [m/s²]
+using control::kGravity;
 inline constexpr double kSlipSpeed = 1.0;  // [m/s]
 
 enum class Tyre { kLinear, kSaturating };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <variant>
 
+#include "control/keep_out.hpp"
 #include "dbc/e2e.hpp"
 
 namespace sim {
@@ -160,8 +161,7 @@ void VirtualVehicle::Advance() {
 std::vector<control::Obstacle> VirtualVehicle::ObstaclesNow() const {
   std::vector<control::Obstacle> obstacles = obstacles_;
   for (control::Obstacle& obstacle : obstacles) {
-    obstacle.X += obstacle.velocity_X * time();
-    obstacle.Y += obstacle.velocity_Y * time();
+    obstacle = control::Moved(obstacle, time());
   }
   return obstacles;
 }

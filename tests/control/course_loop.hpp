@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "control/affine_model.hpp"
@@ -119,6 +120,13 @@ class CourseLoop {
   double s_ = 0.0;
   double lateral_ = 0.0;
 };
+
+// Of two plans' inputs.
+inline double LargestDifference(std::span<const Input> a, std::span<const Input> b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).cwiseAbs().maxCoeff());
+  return largest;
+}
 
 // On a winding road, among obstacles on both sides.
 struct BusyRoad : CourseLoop {

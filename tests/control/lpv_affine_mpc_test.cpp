@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "gtest/gtest.h"
@@ -15,14 +14,9 @@ namespace {
 
 using testing::BusyRoad;
 using testing::CourseLoop;
+using testing::LargestDifference;
 using testing::StraightRoad;
 using testing::WindingRoad;
-
-double LargestDifference(std::span<const Input> a, std::span<const Input> b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).cwiseAbs().maxCoeff());
-  return largest;
-}
 
 TEST(LpvAffineMpc, SchedulingErrorIsTheDistanceFromThePredictionInRadii) {
   CourseLoop loop(StraightRoad(200.0, 12.0));

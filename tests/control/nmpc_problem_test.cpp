@@ -4,6 +4,7 @@
 
 #include "tests/control/closed_loop.hpp"
 #include "tests/control/differences.hpp"
+#include "tests/control/program_derivatives.hpp"
 #include "tests/control/random.hpp"
 
 namespace control {
@@ -15,6 +16,7 @@ using Eigen::VectorXd;
 using testing::Differences;
 using testing::ExpectClose;
 using testing::Random;
+using testing::Span;
 
 State RandomState(Random& random) {
   return {random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0), random.Uniform(3.0, 30.0),
@@ -71,10 +73,6 @@ class NmpcProblemTest : public ::testing::Test {
 
   static constexpr int kHorizon = 5;
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
-  static std::span<const double> Span(const VectorXd& v) {
-    return {v.data(), Index(static_cast<int>(v.size()))};
-  }
-  static std::span<double> Span(VectorXd& v) { return {v.data(), Index(static_cast<int>(v.size()))}; }
 
   [[nodiscard]] ControllerInput Asked() const {
     return {.z = window_[0],
@@ -83,34 +81,6 @@ class NmpcProblemTest : public ::testing::Test {
             .road = {.left = 4.0, .right = -1.0},
             .obstacles = obstacles_};
   }
-  [[nodiscard]] VectorXd Rows(const VectorXd& x) const {
-    VectorXd g(problem_->rows());
-    problem_->Rows(Span(x), Span(g));
-    return g;
-  }
-  [[nodiscard]] VectorXd Gradient(const VectorXd& x) const {
-    VectorXd gradient(problem_->variables());
-    problem_->Gradient(Span(x), Span(gradient));
-    return gradient;
-  }
-  [[nodiscard]] MatrixXd Jacobian(const VectorXd& x) const {
-    VectorXd values(problem_->jacobian_pattern().size());
-    problem_->Jacobian(Span(x), Span(values));
-    return Dense(problem_->jacobian_pattern(), values, problem_->rows());
-  }
-  // Each place at most once, so a value must not meet another.
-  [[nodiscard]] MatrixXd Dense(const std::vector<NmpcProblem::Entry>& pattern, const VectorXd& values,
-                               int rows) const {
-    MatrixXd dense = MatrixXd::Zero(rows, problem_->variables());
-    MatrixXd count = dense;
-    for (std::size_t k = 0; k < pattern.size(); ++k) {
-      dense(pattern[k].row, pattern[k].column) = values[static_cast<Eigen::Index>(k)];
-      count(pattern[k].row, pattern[k].column) += 1.0;
-    }
-    EXPECT_LE(count.maxCoeff(), 1.0);
-    return dense;
-  }
-
   Random random_{11};
   Reference reference_;
   std::vector<State> window_;
@@ -121,35 +91,21 @@ class NmpcProblemTest : public ::testing::Test {
 };
 
 TEST_F(NmpcProblemTest, GradientIsThatOfTheCost) {
-  const auto cost = [&](const VectorXd& x) { return VectorXd::Constant(1, problem_->Cost(Span(x))); };
-  // Of a quadratic function central differences are exact but for round-off, which a cost of 1e5 makes large.
-  const VectorXd gradient = Gradient(x_);
-  EXPECT_LT((gradient - Differences(x_, cost).row(0).transpose()).norm(), 1e-5 * gradient.norm());
+  testing::ExpectGradientOfCost(*problem_, x_);
 }
 
 TEST_F(NmpcProblemTest, JacobianIsThatOfTheRows) {
-  ExpectClose(Jacobian(x_), Differences(x_, [&](const VectorXd& x) { return Rows(x); }));
+  testing::ExpectJacobianOfRows(*problem_, x_);
 }
 
 TEST_F(NmpcProblemTest, HessianIsThatOfTheLagrangian) {
-  constexpr double kSigma = 0.7;
-  VectorXd lambda(problem_->rows());
-  for (double& l : lambda) l = random_.Uniform(-2.0, 2.0);
-  VectorXd values(problem_->hessian_pattern().size());
-  problem_->Hessian(Span(x_), kSigma, Span(std::as_const(lambda)), Span(values));
-  for (const auto& [row, column] : problem_->hessian_pattern())
-    EXPECT_LE(column, row) << "not the lower triangle";
-  const MatrixXd lower = Dense(problem_->hessian_pattern(), values, problem_->variables());
-  const MatrixXd hessian = lower.selfadjointView<Eigen::Lower>();
-  ExpectClose(hessian, Differences(x_, [&](const VectorXd& x) -> VectorXd {
-                return kSigma * Gradient(x) + Jacobian(x).transpose() * lambda;
-              }));
+  testing::ExpectHessianOfLagrangian(*problem_, x_, random_);
 }
 
 TEST_F(NmpcProblemTest, PatternFollowsTheNumberOfObstacles) {
   obstacles_.pop_back();
   problem_->Set(Asked());
-  ExpectClose(Jacobian(x_), Differences(x_, [&](const VectorXd& x) { return Rows(x); }));
+  testing::ExpectJacobianOfRows(*problem_, x_);
 }
 
 TEST_F(NmpcProblemTest, ReferenceAtRestOnItselfViolatesNothingButWhatStandsInItsWay) {
