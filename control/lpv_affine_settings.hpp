@@ -23,10 +23,10 @@ struct LpvAffineSettings {
   double upsilon_max = 60.0;  // [m/s]
 
   double mu = 0.7;              // friction coefficient that is reckoned with
-  double friction_share = 0.8;  // r = friction_share μ g
+  double friction_share = 0.9;  // r = friction_share μ g
   Footprint footprint{.front = 1.95, .rear = 2.30, .half_width = 0.9};
   double obstacle_margin = 0.3;  // [m]
-  double road_margin = 0.2;      // [m]
+  double road_margin = 0.4;      // [m]
   double stop_gap = 2.0;         // before an obstacle that cannot be passed [m]
 
   bool trust_region = true;

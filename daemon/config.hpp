@@ -45,9 +45,9 @@
 //                 trust_region = "adaptive"     radii by the last prediction's error; "fixed": as given; "none"
 //                 trust_radius = [1, 0.5, 0.1, 0.1]   of υ [m/s], ν [m/s], ψ [rad], δ [rad], each > 0
 //                 mu = 0.7                      friction coefficient that is reckoned with, 0.05..1.5
-//                 friction_share = 0.8          of it that a plan may use, 0.1..1
+//                 friction_share = 0.9          of it that a plan may use, 0.1..1
 //                 obstacle_margin = 0.3         [m], 0..5
-//                 road_margin = 0.2             [m], 0..5
+//                 road_margin = 0.4             [m], 0..5
 //                 stop_gap = 2.0                before an obstacle that cannot be passed [m], 0..50
 //                 max_steering_rate = 0.6       of a plan [rad/s], 0.01..10
 //                 max_jerk = 20.0               of a plan [m/s³], 0.1..400

@@ -77,18 +77,19 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
 
 // At most once a second.
 void EventLog::Constraint(const CycleReport& report, Time now) {
-  const auto& violation = report.plan_accepted || !report.rejection ? report.relaxation : report.rejection;
+  const auto& violation = report.rejection ? report.rejection : report.relaxation;
   if (!violation || (constraint_told_ && now - last_constraint_ < 1s)) return;
   constraint_told_ = true;
   last_constraint_ = now;
   const std::string text = ViolationText(*violation);
   if (report.solver != dbc::SolverStatus::kSolved) {
     spdlog::warn("problem not solved; most in the way: {}", text);
-  } else if (!report.plan_accepted && report.rejection) {
-    spdlog::warn("plan rejected: {}", text);
+  } else if (!report.rejection) {
+    spdlog::info("constraint relaxed: {}", text);
+  } else if (report.plan_accepted) {
+    spdlog::warn("plan followed all the same, since the last one is no better: {}", text);
   } else {
-    spdlog::log(report.rejection ? spdlog::level::warn : spdlog::level::info, "constraint relaxed: {}{}",
-                text, report.rejection ? ", and going on with the last plan would be no better" : "");
+    spdlog::warn("plan rejected: {}", text);
   }
 }
 

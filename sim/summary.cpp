@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -48,6 +49,30 @@ std::string OrDash(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f} m", *value) : "-";
 }
 
+const char* NameOf(dbc::ConstraintVerdict verdict) {
+  constexpr std::array kNames{"met", "relaxed", "unsolved", "rejected"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+const char* NameOf(dbc::ConstraintName constraint) {
+  constexpr std::array kNames{"model", "input", "rate", "state", "road", "obstacle", "friction", "trust"};
+  return kNames[static_cast<std::size_t>(constraint)];
+}
+
+nlohmann::ordered_json UnmetJson(const std::optional<UnmetConstraint>& unmet) {
+  if (!unmet) return nullptr;
+  const dbc::ConstraintReport& report = unmet->report;
+  return {
+      {"step", unmet->step},   {"verdict", NameOf(report.verdict)}, {"constraint", NameOf(report.constraint)},
+      {"index", report.index}, {"horizon_step", report.step},       {"amount", report.amount}};
+}
+
+std::string UnmetText(const UnmetConstraint& unmet) {
+  const dbc::ConstraintReport& report = unmet.report;
+  return fmt::format("step {}: {} {} at i = {}, by {:.3f} ({})", unmet.step, NameOf(report.constraint),
+                     report.index, report.step, report.amount, NameOf(report.verdict));
+}
+
 }  // namespace
 
 void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
@@ -61,6 +86,17 @@ void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
     summary_.deadline_misses += (status.deadline_misses - *last_misses_ + kMissesModulus) % kMissesModulus;
   }
   last_misses_ = status.deadline_misses;
+}
+
+void Recorder::RecordUnmet(const VirtualVehicle& vehicle) {
+  const auto& unmet = vehicle.unmet();
+  if (!unmet) return;
+  if (unmet->verdict == dbc::ConstraintVerdict::kRelaxed) ++summary_.relaxed_steps;
+  if (unmet->verdict == dbc::ConstraintVerdict::kRejected) ++summary_.rejected_plans;
+  const UnmetConstraint now{.step = summary_.steps - 1, .report = *unmet};
+  if (!summary_.first_unmet) summary_.first_unmet = now;
+  if (!summary_.worst_unmet || unmet->amount > summary_.worst_unmet->report.amount)
+    summary_.worst_unmet = now;
 }
 
 std::optional<double> Recorder::Clearance(const VirtualVehicle& vehicle) const {
@@ -114,6 +150,7 @@ void Recorder::Record(const VirtualVehicle& vehicle) {
   if (engaged_) {
     ++summary_.steps;
     RecordStatus(vehicle);
+    RecordUnmet(vehicle);
     RecordPlace(vehicle, place.lateral);
   }
   standing_cycles_ = z.segment<2>(control::kUpsilon).norm() < kStandstillSpeed ? standing_cycles_ + 1 : 0;
@@ -159,6 +196,10 @@ std::string ToJson(const Summary& summary) {
       {"completed", summary.completed},
       {"steps", summary.steps},
       {"infeasible_steps", summary.infeasible_steps},
+      {"relaxed_steps", summary.relaxed_steps},
+      {"rejected_plans", summary.rejected_plans},
+      {"first_unmet", UnmetJson(summary.first_unmet)},
+      {"worst_unmet", UnmetJson(summary.worst_unmet)},
       {"min_clearance_m", OrNull(summary.min_clearance_m)},
       {"min_road_margin_m", OrNull(summary.min_road_margin_m)},
       {"contact_step", OrNull(summary.contact_step)},
@@ -184,6 +225,10 @@ std::string ToText(const Summary& summary) {
   line("completed", summary.completed ? "yes" : "no");
   line("steps", std::to_string(summary.steps));
   line("infeasible steps", std::to_string(summary.infeasible_steps));
+  line("relaxed steps", std::to_string(summary.relaxed_steps));
+  line("rejected plans", std::to_string(summary.rejected_plans));
+  if (summary.first_unmet) line("first unmet", UnmetText(*summary.first_unmet));
+  if (summary.worst_unmet) line("worst unmet", UnmetText(*summary.worst_unmet));
   line("smallest clearance", OrDash(summary.min_clearance_m));
   line("smallest road margin", OrDash(summary.min_road_margin_m));
   line("RMS lateral error", OrDash(summary.rms_lateral_error_m));

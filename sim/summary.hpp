@@ -13,10 +13,20 @@
 
 namespace sim {
 
+// What a controller could not meet, as it told on the bus. On a real bus that may be heard in the cycle after.
+struct UnmetConstraint {
+  std::int64_t step = 0;  // of the drive, from 0
+  dbc::ConstraintReport report;
+};
+
 struct Summary {
   bool completed = false;    // driven by the controller to the end of the route or of the scenario's duration
   std::int64_t steps = 0;    // cycles from engagement on
   int infeasible_steps = 0;  // of those, cycles in mode Active whose solver status was not Solved
+  int relaxed_steps = 0;     // cycles of which the plan gave way in a softened constraint
+  int rejected_plans = 0;    // cycles of which the plan failed the check before it was followed
+  std::optional<UnmetConstraint> first_unmet;
+  std::optional<UnmetConstraint> worst_unmet;  // of the largest amount
   // Signed distance of the vehicle's footprint to the nearest obstacle's edge, negative in contact.
   std::optional<double> min_clearance_m;
   // Of the footprint's outermost corner to the nearer road edge, negative off the road.
@@ -50,6 +60,7 @@ class Recorder {
 
  private:
   void RecordStatus(const VirtualVehicle& vehicle);
+  void RecordUnmet(const VirtualVehicle& vehicle);
   void RecordPlace(const VirtualVehicle& vehicle, double lateral);
   [[nodiscard]] std::optional<double> Clearance(const VirtualVehicle& vehicle) const;
   [[nodiscard]] double RoadMargin(const control::State& z) const;
@@ -68,7 +79,7 @@ class Recorder {
 };
 
 // One JSON object with the names above, the solve times as {"median", "p99", "max"} of solve_time_us, and
-// `passed`.
+// `passed`; an unmet constraint as {"step", "verdict", "constraint", "index", "horizon_step", "amount"}.
 [[nodiscard]] std::string ToJson(const Summary& summary);
 // A few lines for a terminal.
 [[nodiscard]] std::string ToText(const Summary& summary);

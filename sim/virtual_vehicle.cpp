@@ -122,6 +122,8 @@ void VirtualVehicle::Receive(const can::Frame& frame) {
     status_is_new_ = true;
     status_after_ = steering_.answered && acceleration_.answered;
     heard_ = true;
+  } else if (const auto* report = std::get_if<dbc::ConstraintReport>(&*message)) {
+    if (report->verdict != dbc::ConstraintVerdict::kMet) unmet_ = *report;
   }
 }
 
@@ -156,6 +158,7 @@ void VirtualVehicle::Advance() {
   }
   status_after_ = false;
   status_is_new_ = false;
+  unmet_.reset();
 }
 
 std::vector<control::Obstacle> VirtualVehicle::ObstaclesNow() const {

@@ -66,6 +66,8 @@ class VirtualVehicle {
   [[nodiscard]] dbc::Mode mode() const { return status_.mode; }
   [[nodiscard]] const dbc::ControllerStatus& status() const { return status_; }
   [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // came since the last Advance()
+  // What the controller could not meet, if it told so since the last Advance().
+  [[nodiscard]] const std::optional<dbc::ConstraintReport>& unmet() const { return unmet_; }
   [[nodiscard]] bool heard() const { return heard_; }                  // any status came at all
   // Frames with a wrong CRC or length, or the invalid counter.
   [[nodiscard]] std::uint64_t rejected_frames() const { return rejected_frames_; }
@@ -111,6 +113,7 @@ class VirtualVehicle {
   bool obeyed_ = false;  // at some time
   dbc::ControllerStatus status_;
   bool status_is_new_ = false;
+  std::optional<dbc::ConstraintReport> unmet_;
   bool status_after_ = false;
   bool heard_ = false;
   std::uint64_t rejected_frames_ = 0;

@@ -106,7 +106,7 @@ TEST(AffineNmpc, WhatCannotBeKeptToIsRelaxedAndNamed) {
   const Plan& plan = nmpc.Step(loop.Asked());
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
   EXPECT_EQ(plan.relaxation.constraint.kind, ConstraintKind::kRoad);
-  EXPECT_NEAR(plan.relaxation.amount, 3.5 + 0.9 + 0.2 - 4.0, 0.1);
+  EXPECT_NEAR(plan.relaxation.amount, 3.5 + 0.9 + loop.settings().road_margin - 4.0, 0.1);
 }
 
 TEST(AffineNmpc, InputOutOfRangeComesBackAsFastAsItMay) {

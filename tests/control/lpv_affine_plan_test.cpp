@@ -134,17 +134,19 @@ TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
   LpvAffineSettings settings;
   settings.footprint = {.front = 0.0, .rear = 0.0, .half_width = 0.9};  // no end that turns outwards
   CourseLoop loop(StraightRoad(300.0, 12.0), settings);
-  loop.PlaceAt(50.0, 12.0, 3.5);  // 0.4 m over the edge, and 0.2 m of margin
+  loop.PlaceAt(50.0, 12.0, 3.5);  // 0.4 m over the edge, and the margin
   const Plan& plan = loop.Ask();
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
   EXPECT_EQ(plan.relaxation.constraint.kind, ConstraintKind::kRoad);
   EXPECT_EQ(plan.relaxation.constraint.step, 1);
-  EXPECT_NEAR(plan.relaxation.amount, 0.6, 0.02);
+  EXPECT_NEAR(plan.relaxation.amount, 0.4 + settings.road_margin, 0.02);
 }
 
 // Closed on both sides, and no stopping any more: the two contradict one another.
 TEST(LpvAffinePlan, WhereRoadAndObstacleContradictOneAnotherItGivesUpWhatIsMissing) {
-  CourseLoop loop(StraightRoad(300.0, 12.0), {}, {.left = 1.8, .right = -1.8});
+  LpvAffineSettings settings;
+  settings.road_margin = 0.2;
+  CourseLoop loop(StraightRoad(300.0, 12.0), settings, {.left = 1.8, .right = -1.8});
   loop.PlaceAt(50.0, 12.0, 0.5);
   // Left of it 1.8 − 0.2 − (−1.1 + 0.7 + 0.3) = 1.7 m are left of 1.8 m.
   loop.obstacles() = {loop.ObstacleAt(58.0, -1.1, 0.7)};

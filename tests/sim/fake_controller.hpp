@@ -42,7 +42,7 @@ class FakeController {
     const double delta =
         std::clamp(2.6 * ahead.curvature - 0.1 * place.lateral - 0.8 * heading_error, -0.5, 0.5);
     const bool enable = mode == dbc::Mode::kActive;
-    return {
+    std::vector<can::Frame> frames{
         Encode(dbc::SteeringCommand{
             .enable = enable, .mode = mode, .state_counter = state_counter, .plan_age = 0, .delta = delta}),
         Encode(dbc::AccelerationCommand{.enable = enable,
@@ -51,6 +51,8 @@ class FakeController {
                                         .plan_age = 0,
                                         .acceleration = 0.0}),
         Status()};
+    if (constraint) frames.push_back(Encode(*constraint));
+    return frames;
   }
 
   [[nodiscard]] can::Frame Status() {
@@ -76,6 +78,7 @@ class FakeController {
   dbc::Mode mode = dbc::Mode::kStandby;
   dbc::SolverStatus solver_status = dbc::SolverStatus::kSolved;
   std::uint16_t deadline_misses = 0;
+  std::optional<dbc::ConstraintReport> constraint;  // none: not told
 
  private:
   const dbc::VehicleBus* bus_;

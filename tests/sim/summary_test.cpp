@@ -150,6 +150,43 @@ TEST_F(SummaryTest, CountsStepsThatWereNotSolvedAndDeadlineMissesAcrossTheWrap) 
               ElementsAre("infeasible_steps = 3 is above 2", "deadline_misses = 5 is above 4"));
 }
 
+TEST_F(SummaryTest, TellsTheFirstAndTheWorstOfWhatWasNotMet) {
+  using enum dbc::ConstraintVerdict;
+  const Scenario scenario = files_.Load("duration = 4.0\n");
+  int cycle = 0;
+  std::int64_t first = 0;
+  const Summary summary = Drive(scenario, [&](FakeController& controller, VirtualVehicle&) {
+    ++cycle;
+    controller.constraint = dbc::ConstraintReport{};
+    if (controller.mode != dbc::Mode::kActive) return;
+    if (first == 0) first = cycle;
+    const std::int64_t step = cycle - first;  // of the drive, but for the cycle that engages
+    if (step >= 9 && step < 12)
+      controller.constraint = {.verdict = kRelaxed,
+                               .constraint = dbc::ConstraintName::kObstacle,
+                               .index = 3,
+                               .step = 20,
+                               .amount = 0.01 * static_cast<double>(step)};
+    if (step == 20)
+      controller.constraint = {.verdict = kRejected,
+                               .constraint = dbc::ConstraintName::kRoad,
+                               .index = 1,
+                               .step = 5,
+                               .amount = 0.05};
+  });
+  EXPECT_EQ(summary.relaxed_steps, 3);
+  EXPECT_EQ(summary.rejected_plans, 1);
+  ASSERT_TRUE(summary.first_unmet && summary.worst_unmet);
+  EXPECT_EQ(summary.first_unmet->step, 10);
+  EXPECT_EQ(summary.worst_unmet->step, 12);
+  const nlohmann::json json = nlohmann::json::parse(ToJson(summary));
+  const nlohmann::json first_unmet{{"step", 10}, {"verdict", "relaxed"}, {"constraint", "obstacle"},
+                                   {"index", 3}, {"horizon_step", 20},   {"amount", 0.09}};
+  EXPECT_EQ(json["first_unmet"], first_unmet);
+  EXPECT_NEAR(json["worst_unmet"]["amount"], 0.11, 1e-9);
+  EXPECT_THAT(ToText(summary), HasSubstr("step 10: obstacle 3 at i = 20, by 0.090 (relaxed)"));
+}
+
 TEST(Percentile, IsTheValueOfTheNearestRank) {
   std::vector<int> values;
   for (int i = 1; i <= 100; ++i) values.push_back(i);
@@ -170,11 +207,12 @@ TEST(SummaryJson, HasTheAgreedKeys) {
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(ToJson(summary));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys,
-              ElementsAre("completed", "steps", "infeasible_steps", "min_clearance_m", "min_road_margin_m",
-                          "contact_step", "off_road_step", "standing", "rms_lateral_error_m", "solve_time_us",
-                          "deadline_misses", "passed", "failed_expectations"));
+  EXPECT_THAT(keys, ElementsAre("completed", "steps", "infeasible_steps", "relaxed_steps", "rejected_plans",
+                                "first_unmet", "worst_unmet", "min_clearance_m", "min_road_margin_m",
+                                "contact_step", "off_road_step", "standing", "rms_lateral_error_m",
+                                "solve_time_us", "deadline_misses", "passed", "failed_expectations"));
   EXPECT_TRUE(json["min_clearance_m"].is_null());
+  EXPECT_TRUE(json["first_unmet"].is_null());
   EXPECT_EQ(json["min_road_margin_m"], 1.5);
   EXPECT_EQ(json["solve_time_us"].size(), 3u);
   EXPECT_TRUE(json["solve_time_us"].contains("p99"));

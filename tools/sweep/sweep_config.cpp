@@ -10,13 +10,19 @@ constexpr double kCornerSwing = 0.2;
 // From a command to its effect, dead time and lag of the steering together: the mean of what is drawn [s].
 constexpr double kMeanDelay = 0.05;
 
+std::string DaemonsName(const std::string& controller) {
+  using enum lpvmpcd::ControllerKind;
+  if (controller == kCostStandard) return lpvmpcd::ControllerName(kNmpcAffine);
+  if (controller == kFixedRadius) return lpvmpcd::ControllerName(kLpvAffine);
+  return controller;
+}
+
 }  // namespace
 
 lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& ranges) {
   lpvmpcd::Config config;
-  const bool is_standard = controller == kCostStandard;
-  lpvmpcd::SelectController(
-      config, is_standard ? lpvmpcd::ControllerName(lpvmpcd::ControllerKind::kNmpcAffine) : controller);
+  lpvmpcd::SelectController(config, DaemonsName(controller));
+  config.affine.adapt_trust_region = controller != kFixedRadius;
   config.mpc.obstacle_margin += kVehicleFootprint.half_width + kCornerSwing;
   config.affine.footprint = kVehicleFootprint;
   config.affine.mu = ranges.mu.low;
@@ -31,7 +37,7 @@ lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& rang
 
 std::vector<std::string> SweepControllers() {
   using enum lpvmpcd::ControllerKind;
-  return {lpvmpcd::ControllerName(kLpvAffine), lpvmpcd::ControllerName(kLpv),
+  return {lpvmpcd::ControllerName(kLpvAffine), kFixedRadius, lpvmpcd::ControllerName(kLpv),
           lpvmpcd::ControllerName(kLpvStandard), kCostStandard};
 }
 

@@ -12,6 +12,8 @@
 namespace tools {
 
 inline constexpr const char* kCostStandard = "nmpc";  // the controller that the others' cost is compared with
+inline constexpr const char* kFixedRadius =
+    "lpv-affine-fixed";  // lpv-affine with the paper's fixed trust radius
 
 // The daemon's defaults, but for what follows from the ranges and, of a controller that takes the vehicle for a point,
 // from its rectangle: obstacles are enlarged by half its width and what a corner stands out. lpv-affine reckons with the
