@@ -36,7 +36,8 @@ struct OcpQpRow {
   double hi = kNoBound;
   double rho = -1.0;   // ρ, weight of the slack's square; negative: hard row
   double sigma = 0.0;  // σ ≥ 0, weight of the slack in a soft row, cost per unit of the row: exact penalty
-  int unit = kGeneral;  // index in [x; u] if the row bounds that variable alone, with coefficient 1
+  bool holds_input = false;  // D ≠ 0
+  int unit = kGeneral;       // index in [x; u] if the row bounds that variable alone, with coefficient 1
 
   [[nodiscard]] bool soft() const { return rho >= 0.0; }
   [[nodiscard]] bool exact() const { return soft() && sigma > 0.0; }  // its slack has the bound ε ≥ 0

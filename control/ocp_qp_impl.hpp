@@ -23,6 +23,7 @@ bool OcpQpStage<kNx, kNu>::AddInputBound(int index, double lo, double hi, double
   Row& row = rows[static_cast<std::size_t>(row_count++)];
   row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = kNx + index};
   row.D[index] = 1.0;
+  row.holds_input = true;
   return true;
 }
 
@@ -33,6 +34,7 @@ bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
   if (row_count == kMaxRows) return false;
   Row& row = rows[static_cast<std::size_t>(row_count++)];
   row = Row{.C = C, .D = D, .lo = lo, .hi = hi, .rho = rho, .sigma = sigma};
+  row.holds_input = !D.isZero(0.0);
   int entries = 0;
   for (int k = 0; k < kNx + kNu; ++k) {
     const double entry = k < kNx ? C[k] : D[k - kNx];

@@ -17,8 +17,9 @@
 // row with D ≠ 0.
 //   P = Q + KᵀRK + A_Kᵀ P' A_K + Σ w C_K C_Kᵀ,   K = −H_uu⁻¹ H_ux,
 //   H_uu = R + BᵀP'B + Σ w DDᵀ,                  H_ux = BᵀP'A + Σ w DCᵀ,
-//   p = r_x + Kᵀ r_u + A_Kᵀ p' + Σ γ C_K,        k = −H_uu⁻¹ h_u,    h_u = r_u + Bᵀp' + Σ γ D
-// with the gradient γ of each row; r_x, r_u are the gradients of the Lagrangian at the iterate.
+//   p = r_x + Σ γ C + Kᵀ(r_u + Σ γ D) + A_Kᵀ p',  k = −H_uu⁻¹ h_u,    h_u = r_u + Σ γ D + Bᵀp'
+// with the gradient γ of each row; r_x, r_u are the gradients of the Lagrangian at the iterate. A row that bounds an
+// input alone is a term of R, one with D = 0 is one of Q.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -64,11 +65,13 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
       MatrixUU H_uu = stage.R.asDiagonal();
       H_uu.noalias() += stage.B.transpose() * PB;
       MatrixUX H_ux = stage.B.transpose() * PA;
+      VectorU R = stage.R;
       for (std::size_t j = 0; j < row_count; ++j) {
         const auto& row = stage.rows[j];
         if (row.unit >= kNx) {
           H_uu(row.unit - kNx, row.unit - kNx) += work.rows[j].w;
-        } else if (row.unit < 0) {
+          R[row.unit - kNx] += work.rows[j].w;
+        } else if (row.holds_input) {
           const VectorU wD = work.rows[j].w * row.D;
           H_ux.noalias() += wD * row.C.transpose();
           H_uu.noalias() += wD * row.D.transpose();
@@ -83,20 +86,20 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
       work.A_K.noalias() += stage.B * work.K;
       const MatrixXX PA_K = PA + PB * work.K;
       P.noalias() = work.A_K.transpose() * PA_K;
-      P.noalias() += work.K.transpose() * (stage.R.asDiagonal() * work.K);
+      P.noalias() += work.K.transpose() * (R.asDiagonal() * work.K);
       P = (0.5 * (P + P.transpose())).eval();
       P.diagonal() += stage.Q;
     }
     for (std::size_t j = 0; j < row_count; ++j) {
       const auto& row = stage.rows[j];
       const double w = work.rows[j].w;
-      VectorX& C_K = work.C_K[j];
-      if (row.unit >= 0 && row.unit < kNx) {
+      if (row.unit >= kNx) continue;
+      if (row.unit >= 0) {
         P(row.unit, row.unit) += w;
         continue;
       }
-      C_K = row.C;
-      if (!terminal) C_K.noalias() += work.K.transpose() * row.D;
+      VectorX C_K = row.C;
+      if (row.holds_input && !terminal) C_K.noalias() += work.K.transpose() * row.D;
       const VectorX wC_K = w * C_K;
       P.noalias() += wC_K * C_K.transpose();
     }
@@ -113,12 +116,6 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
     auto& work = work_[i];
     VectorU h_u = work.r_u;
     work.p = work.r_x;
-    if (i < N) {
-      const VectorX& p_next = work_[i + 1].p;
-      h_u.noalias() += stage.B.transpose() * p_next;
-      work.p.noalias() += work.A_K.transpose() * p_next;
-      work.p.noalias() += work.K.transpose() * work.r_u;
-    }
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
       RowWork& at = work.rows[j];
@@ -132,14 +129,14 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
       side(at.slack);
       at.y = at.lo.y + at.hi.y + at.slack.y - at.r_epsilon;
       const double gradient = at.hi.y - at.lo.y + (at.lo.w - at.hi.w) * at.y * at.inverse_s;
-      if (row.unit >= 0 && row.unit < kNx) {
-        work.p[row.unit] += gradient;
-      } else {
-        work.p += gradient * work.C_K[j];
-        h_u += gradient * row.D;
-      }
+      detail::AddRowGradient(row, gradient, work.p, h_u);
     }
-    if (i < N) work.k = -work.L_inverse.transpose() * (work.L_inverse * h_u);
+    if (i == N) continue;
+    const VectorX& p_next = work_[i + 1].p;
+    work.p.noalias() += work.A_K.transpose() * p_next;
+    work.p.noalias() += work.K.transpose() * h_u;
+    h_u.noalias() += stage.B.transpose() * p_next;
+    work.k = -work.L_inverse.transpose() * (work.L_inverse * h_u);
   }
   work_[0].dx.setZero();
   work_[0].dpi.setZero();
@@ -154,16 +151,23 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
     next.dpi = next.p;
     next.dpi.noalias() += next.P * next.dx;
   }
+  longest_ = kNoBound;
+  first_order_ = second_order_ = 0.0;
   detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& at, const StageWork& stage) {
     const double dg = detail::RowValue(row, stage.dx, stage.du);
     at.depsilon = (at.y - (at.lo.w - at.hi.w) * dg) * at.inverse_s;
-    const auto side = [](Side& s, double distance_step) {
+    const auto side = [&](Side& s, double distance_step) {
+      if (!s.present) return;
       s.dlambda = s.y - s.w * distance_step;
       s.dt = distance_step + s.residual + kDualRegularisation * s.dlambda;
+      if (s.t + longest_ * s.dt < 0.0) longest_ = -s.t / s.dt;
+      if (s.lambda + longest_ * s.dlambda < 0.0) longest_ = -s.lambda / s.dlambda;
+      first_order_ += s.t * s.dlambda + s.lambda * s.dt;
+      second_order_ += s.dt * s.dlambda;
     };
     side(at.lo, dg + at.depsilon);
     side(at.hi, -dg + at.depsilon);
-    if (at.slack.present) side(at.slack, at.depsilon);
+    side(at.slack, at.depsilon);
   });
 }
 

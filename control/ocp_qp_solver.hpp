@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -95,7 +96,6 @@ class OcpQpSolver {
     MatrixUX K;
     MatrixUU L_inverse;  // of H_uu = L Lᵀ: beside a w of 1e10 the inverse of H_uu has few digits
     std::array<RowWork, kMaxRows> rows;
-    std::array<VectorX, kMaxRows> C_K;  // C + KᵀD; not used where the row bounds a state alone
   };
 
   bool SolveBase(const Qp& qp);
@@ -107,17 +107,23 @@ class OcpQpSolver {
   double Residuals(const Qp& qp);
   bool Factorise(const Qp& qp, bool with_rows);
   void Step(const Qp& qp, double target, bool second_order);
-  double StepLength(const Qp& qp, double keep) const;
-  double ComplementarityAfter(const Qp& qp, double alpha) const;
+  // The largest α ≤ 1 that leaves of every t and λ at least the fraction 1 − keep.
+  [[nodiscard]] double StepLength(double keep) const { return std::min(1.0, keep * longest_); }
+  // μ after a step of length α.
+  [[nodiscard]] double ComplementarityAfter(double alpha) const {
+    return mu_ + alpha * (first_order_ + alpha * second_order_) / std::max(sides_, 1);
+  }
   void Move(const Qp& qp, double alpha);
   void WriteSolution(const Qp& qp);
 
   QpSettings settings_;
   Point point_;
   std::vector<StageWork> work_;
-  double mu_ = 0.0;            // mean complementarity
-  int sides_ = 0;              // finite bounds, those of slacks among them
-  double row_residual_ = 0.0;  // largest |distance − t|
+  double mu_ = 0.0;                                // mean complementarity
+  double longest_ = 0.0;                           // the step of this length brings the first t or λ to zero
+  double first_order_ = 0.0, second_order_ = 0.0;  // of the sum of all λ t, in the step's length
+  int sides_ = 0;                                  // finite bounds, those of slacks among them
+  double row_residual_ = 0.0;                      // largest |distance − t|
 };
 
 }  // namespace control

@@ -67,6 +67,8 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
   }
   if (guess == nullptr || !StartFrom(qp, *guess)) StartCold(qp);
   constexpr int kMaxHalvings = 6;
+  constexpr double kShort = 0.9;
+  double alpha = 1.0;
   double infeasibility = 1.0;  // what is left of the start's residuals of the linear equations
   for (;; ++result.iterations) {
     result.kkt_residual = Residuals(qp);
@@ -75,7 +77,8 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
       result.status = SolverStatus::kSolved;
       break;
     }
-    if (row_residual_ > settings_.tolerance && result.iterations >= 3) {
+    // Multipliers that prove something grow where steps are short.
+    if (row_residual_ > settings_.tolerance && result.iterations >= 3 && alpha < kShort) {
       WriteSolution(qp);
       if (ProvesInfeasible(qp, point_)) {
         result.status = SolverStatus::kInfeasible;
@@ -90,19 +93,19 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
     // Predictor: straight at complementarity zero. How far it gets tells how much centring the corrector
     // needs.
     Step(qp, 0.0, false);
-    const double ratio = ComplementarityAfter(qp, StepLength(qp, 1.0)) / mu_;
+    const double ratio = ComplementarityAfter(StepLength(1.0)) / mu_;
     // A μ far below the tolerance would cost digits (t of the size of round-off) and gain nothing.
     const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * settings_.tolerance);
     Step(qp, target, true);
     const double keep = std::max(0.995, 1.0 - mu_);
-    double alpha = StepLength(qp, keep);
+    alpha = StepLength(keep);
     // The second-order term can lead round in a cycle for ever (C. Cartis, Some disadvantages of a
     // Mehrotra-type primal-dual corrector interior point algorithm for linear programming, 2009). A cycle
     // raises μ somewhere. Once the linear equations hold, the start of a step without that term lowers it.
-    if (infeasibility <= 1e-2 && ComplementarityAfter(qp, alpha) > mu_) {
+    if (infeasibility <= 1e-2 && ComplementarityAfter(alpha) > mu_) {
       Step(qp, 0.3 * mu_, false);
-      alpha = StepLength(qp, keep);
-      for (int k = 0; k < kMaxHalvings && ComplementarityAfter(qp, alpha) > mu_; ++k) alpha *= 0.5;
+      alpha = StepLength(keep);
+      for (int k = 0; k < kMaxHalvings && ComplementarityAfter(alpha) > mu_; ++k) alpha *= 0.5;
     }
     infeasibility *= 1.0 - alpha;
     Move(qp, alpha);
@@ -209,37 +212,6 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
   raise(row_residual_);
   mu_ = complementarity / std::max(sides_, 1);
   return largest;
-}
-
-// The largest α ≤ 1 that leaves of every t and λ at least the fraction 1 − keep.
-template <int kNx, int kNu>
-double OcpQpSolver<kNx, kNu>::StepLength(const Qp& qp, double keep) const {
-  double alpha = 1.0 / keep;
-  const auto side = [&](const Side& s) {
-    if (!s.present) return;
-    if (s.t + alpha * s.dt < 0.0) alpha = -s.t / s.dt;
-    if (s.lambda + alpha * s.dlambda < 0.0) alpha = -s.lambda / s.dlambda;
-  };
-  detail::ForEachRow(qp, work_, [&](const auto&, const RowWork& at, const auto&) {
-    side(at.lo);
-    side(at.hi);
-    side(at.slack);
-  });
-  return keep * alpha;
-}
-
-template <int kNx, int kNu>
-double OcpQpSolver<kNx, kNu>::ComplementarityAfter(const Qp& qp, double alpha) const {
-  double sum = 0.0;
-  const auto side = [&](const Side& s) {
-    if (s.present) sum += (s.t + alpha * s.dt) * (s.lambda + alpha * s.dlambda);
-  };
-  detail::ForEachRow(qp, work_, [&](const auto&, const RowWork& at, const auto&) {
-    side(at.lo);
-    side(at.hi);
-    side(at.slack);
-  });
-  return sum / std::max(sides_, 1);
 }
 
 template <int kNx, int kNu>
