@@ -68,7 +68,7 @@ class VirtualVehicle {
   [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // came since the last Advance()
   // What the controller could not meet, if it told so since the last Advance().
   [[nodiscard]] const std::optional<dbc::ConstraintReport>& unmet() const { return unmet_; }
-  [[nodiscard]] bool heard() const { return heard_; }                  // any status came at all
+  [[nodiscard]] bool heard() const { return heard_; }  // any status came at all
   // Frames with a wrong CRC or length, or the invalid counter.
   [[nodiscard]] std::uint64_t rejected_frames() const { return rejected_frames_; }
   // Cycles without a command, once one was obeyed.

@@ -3,11 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 
+#include "control/plane.hpp"
 #include "daemon/violation_text.hpp"
 
 namespace tools {
 namespace {
+
+// The point of the reference beside the vehicle; before its first point and after its last one, on straight on.
+control::State Beside(const control::State& z, std::span<const control::State> reference) {
+  control::State beside = reference.front();
+  for (std::size_t i = 0; i + 1 < reference.size(); ++i) {
+    const Eigen::Vector2d from = control::Position(reference[i]);
+    const Eigen::Vector2d way = control::Position(reference[i + 1]) - from;
+    if (way.squaredNorm() < 1e-6) break;
+    const double share = (control::Position(z) - from).dot(way) / way.squaredNorm();
+    if (i > 0 && share < 0.0) break;  // round a corner's outside
+    beside = reference[i] + share * (reference[i + 1] - reference[i]);
+    if (share <= 1.0) break;
+  }
+  return beside;
+}
 
 // Of the inputs that were applied, seen as the next step's u_{k−1}.
 class Meter {
@@ -22,7 +39,9 @@ class Meter {
       figures_.cost += weights_.R.dot(u.cwiseAbs2());
     }
     u_last_ = u;
-    const control::State error = observed.input.z - observed.input.reference.front();
+    const auto& reference = observed.input.reference;
+    const control::State error =
+        observed.input.z - (weights_.along ? reference.front() : Beside(observed.input.z, reference));
     figures_.cost += weights_.Q.dot(error.cwiseAbs2());
     if (observed.plan.status != control::SolverStatus::kSolved && !figures_.first_failure) {
       figures_.first_failure = {.step = static_cast<int>(figures_.step_seconds.size()),

@@ -17,6 +17,9 @@ namespace tools {
 struct CostWeights {
   control::State Q;
   control::Input R;
+  // Whether being ahead of the reference or behind it counts. If not, z_ref is the point of the reference beside the
+  // vehicle: for controllers whose reference goes by progress.
+  bool along = true;
 };
 
 struct FirstFailure {

@@ -56,8 +56,8 @@ TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, const SweepRange
                                    const std::function<void(const can::Frame&)>& frame) {
   const control::MpcSettings weights;
   const lpvmpcd::Config config = ConfigFor(controller, ranges);
-  const DriveFigures figures =
-      MeasureDrive(drawn.scenario, config, RouteFor(drawn, config), {.Q = weights.Q, .R = weights.R}, frame);
+  const DriveFigures figures = MeasureDrive(drawn.scenario, config, RouteFor(drawn, config),
+                                            {.Q = weights.Q, .R = weights.R, .along = false}, frame);
   const sim::Summary& summary = figures.summary;
   const SweepOutcome outcome = OutcomeOf(summary);
   return {.drive = {.outcome = outcome,
