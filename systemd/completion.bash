@@ -36,7 +36,7 @@ _lpvmpcd() {
     _lpvmpcd_offer "$commands"
   elif [[ ${path[*]} == decode ]]; then
     _filedir log
-  elif [[ ${path[*]} == report ]]; then
+  elif [[ ${path[*]} == report || ${path[*]} == "bench qp" ]]; then
     _filedir -d
   fi
 }

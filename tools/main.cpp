@@ -15,6 +15,7 @@
 
 #include "config/text_file.hpp"
 #include "daemon/config.hpp"
+#include "tools/bench_qp.hpp"
 #include "tools/bench_step.hpp"
 #include "tools/decode.hpp"
 #include "tools/paper/paper.hpp"
@@ -124,6 +125,13 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   step_command->add_flag("--json", bench.json, "figures as JSON");
+  tools::BenchQpOptions bench_qp;
+  CLI::App* qp_command = bench_command->add_subcommand("qp", "the QP solver on recorded problems");
+  qp_command->add_option("DIR", bench_qp.folder, "folder with problems *.qp; required");
+  qp_command->add_option("--repeat", bench_qp.repeat, "solves of each problem")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  qp_command->add_flag("--json", bench_qp.json, "figures as JSON");
 
   const int processors = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   tools::PaperOptions paper;
@@ -187,8 +195,9 @@ int main(int argc, char** argv) {
       app.parse(argc, argv);
       if (app.get_subcommands().empty())
         throw CLI::RequiredError("a command: run, decode, bench, paper, sweep or report");
-      if (bench_command->parsed() && !step_command->parsed())
-        throw CLI::RequiredError("a command: bench step");
+      if (bench_command->parsed() && bench_command->get_subcommands().empty())
+        throw CLI::RequiredError("a command: bench step or bench qp");
+      RequireOption(*qp_command, "DIR");
       if (!run.sweep_seed) RequireOption(*run_command, "--scenario");
       if (!merge_command->parsed()) {
         RequireOption(*sweep_command, "--count");
@@ -215,7 +224,11 @@ int main(int argc, char** argv) {
       tools::Report(report);
       return 0;
     }
-    tools::BenchStep(bench, std::cout);
+    if (qp_command->parsed()) {
+      tools::BenchQp(bench_qp, std::cout);
+    } else {
+      tools::BenchStep(bench, std::cout);
+    }
     return Finish(0);
   } catch (const std::exception& error) {
     return Fail(error);

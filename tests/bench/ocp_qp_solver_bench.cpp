@@ -4,13 +4,13 @@
 #include <string>
 
 #include "control/ocp_qp_solver.hpp"
-#include "tests/control/qp_instance.hpp"
+#include "tools/qp_instance.hpp"
 
 namespace control {
 namespace {
 
 OcpQp<8, 2> Read(const std::string& name) {
-  return testing::ReadQpInstance(LPVMPC_TEST_DATA "/qp/" + name + ".qp");
+  return tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build();
 }
 
 void Solve(benchmark::State& state, const OcpQp<8, 2>& qp, const OcpQpPoint<8, 2>* guess) {

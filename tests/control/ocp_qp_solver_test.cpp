@@ -11,8 +11,8 @@
 
 #include "control/ocp_qp_solver_impl.hpp"
 #include "gtest/gtest.h"
-#include "tests/control/qp_instance.hpp"
 #include "tests/control/random_qp.hpp"
+#include "tools/qp_instance.hpp"
 
 namespace control {
 namespace {
@@ -46,7 +46,7 @@ std::map<std::string, Recorded> RecordedOptima() {
 }
 
 Qp ReadInstance(const std::string& name) {
-  return testing::ReadQpInstance(LPVMPC_TEST_DATA "/qp/" + name);
+  return tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name).Build();
 }
 
 TEST(OcpQpSolver, RecordedInstancesReachTheirOptimum) {

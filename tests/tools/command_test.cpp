@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/support/process.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tools/sweep/scenario_seed.hpp"
@@ -204,6 +206,32 @@ TEST(Lpvmpc, PeriodThatIsNotTheVehiclesIsNamed) {
 TEST(Lpvmpc, HorizonOutsideTheRouteIsNamedBeforeAnythingIsPrinted) {
   ExpectOneLine({LPVMPC, "bench", "step", "--horizon", "8", "1", "--repeat", "1"}, HasSubstr("--horizon: 1"));
   ExpectOneLine({LPVMPC, "bench", "step", "--horizon", "99999"}, HasSubstr("--horizon: 99999"));
+}
+
+TEST(Lpvmpc, BenchQpSolvesRecordedProblemsColdAndWarm) {
+  const test_support::Outcome outcome =
+      test_support::Run({LPVMPC, "bench", "qp", LPVMPC_TEST_DATA "/qp", "--repeat", "1", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json lines = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(lines.size(), 4u);  // two horizons
+  for (const nlohmann::json& line : lines) {
+    EXPECT_EQ(line["solved"], line["instances"]) << line;
+    EXPECT_LE(line["largest_kkt_residual"], 1e-8) << line;
+    EXPECT_GT(line["solve"]["median_us"], 0.0);
+  }
+}
+
+TEST(Lpvmpc, BenchQpNamesTheFileAndTheLineThatIsWrong) {
+  const test_support::TempDir folder;
+  const std::string dir = folder.path().string();
+  ExpectOneLine({LPVMPC, "bench", "qp", dir}, HasSubstr("holds no *.qp"));
+  ExpectOneLine({LPVMPC, "bench", "qp", dir + "/none"}, HasSubstr("/none: no such folder"));
+  const auto expect = [&](const std::string& text, const std::string& told) {
+    ExpectOneLine({LPVMPC, "bench", "qp", dir}, HasSubstr(Write(folder, "a.qp", text) + told));
+  };
+  expect("8 8\n3", ":2: nu = 3 must be a whole number in [2, 2]");
+  expect("8 8 2\n1.0 x", ":2: x: not a number");
+  expect("1 8 2\n0 0 0", ":2: ends too early");
 }
 
 TEST(Lpvmpc, RunPrintsItsSummaryAsJson) {

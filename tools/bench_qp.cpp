@@ -1,0 +1,157 @@
+#include "tools/bench_qp.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "control/ocp_qp_solver.hpp"
+#include "sim/percentile.hpp"
+#include "tools/qp_instance.hpp"
+
+namespace tools {
+namespace {
+
+using Solver = control::OcpQpSolver<8, 2>;
+using Clock = std::chrono::steady_clock;
+
+struct Named {
+  std::string series;
+  QpInstance instance;
+};
+
+struct Line {
+  int instances = 0, solved = 0, infeasible = 0, failed = 0;
+  double iterations = 0.0;  // of all instances
+  double largest_kkt = 0.0;
+  std::vector<double> solve_us;        // the solve alone
+  std::vector<double> build_solve_us;  // and the problem built first
+};
+
+std::map<int, std::vector<Named>> ReadFolder(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw std::invalid_argument(fmt::format("{}: no such folder", folder.string()));
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".qp") files.push_back(entry.path());
+  }
+  if (files.empty()) throw std::invalid_argument(fmt::format("{}: holds no *.qp", folder.string()));
+  std::ranges::sort(files);
+  std::map<int, std::vector<Named>> by_horizon;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    QpInstance instance(file);
+    const int horizon = instance.horizon();
+    by_horizon[horizon].push_back(
+        {.series = name.substr(0, name.rfind('_')), .instance = std::move(instance)});
+  }
+  return by_horizon;
+}
+
+template <typename Work>
+double Microseconds(const Work& work) {
+  const auto start = Clock::now();
+  work();
+  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+}
+
+Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
+  const int horizon = all.front().instance.horizon();
+  Solver solver(horizon);
+  control::OcpQp<8, 2> qp(horizon);
+  control::OcpQpPoint<8, 2> before(horizon);
+  std::string series;  // of `before`; empty: there is none
+  Line line;
+  for (const Named& named : all) {
+    const control::OcpQpPoint<8, 2>* guess = warm && series == named.series ? &before : nullptr;
+    control::QpResult result;
+    named.instance.Build(qp);
+    for (int i = 0; i < repeat; ++i)
+      line.solve_us.push_back(Microseconds([&] { result = solver.Solve(qp, guess); }));
+    for (int i = 0; i < repeat; ++i) {
+      line.build_solve_us.push_back(Microseconds([&] {
+        named.instance.Build(qp);
+        result = solver.Solve(qp, guess);
+      }));
+    }
+    ++line.instances;
+    line.iterations += result.iterations;
+    const bool solved = result.status == control::SolverStatus::kSolved;
+    if (solved) {
+      ++line.solved;
+      line.largest_kkt = std::max(line.largest_kkt, EvaluateKkt(qp, solver.solution()).Max());
+      before = solver.solution();
+    } else if (result.status == control::SolverStatus::kInfeasible &&
+               ProvesInfeasible(qp, solver.solution())) {
+      ++line.infeasible;
+    } else {
+      ++line.failed;
+    }
+    series = solved ? named.series : "";
+  }
+  std::ranges::sort(line.solve_us);
+  std::ranges::sort(line.build_solve_us);
+  return line;
+}
+
+nlohmann::ordered_json TimesJson(const std::vector<double>& sorted) {
+  return {{"median_us", sim::Percentile(sorted, 0.5)},
+          {"p99_us", sim::Percentile(sorted, 0.99)},
+          {"max_us", sorted.back()}};
+}
+
+nlohmann::ordered_json ToJson(int horizon, const char* start, const Line& line) {
+  return {{"horizon", horizon},
+          {"start", start},
+          {"instances", line.instances},
+          {"solved", line.solved},
+          {"infeasible", line.infeasible},
+          {"failed", line.failed},
+          {"mean_iterations", line.iterations / line.instances},
+          {"largest_kkt_residual", line.largest_kkt},
+          {"solve", TimesJson(line.solve_us)},
+          {"build_and_solve", TimesJson(line.build_solve_us)}};
+}
+
+std::string ToText(int horizon, const char* start, const Line& line) {
+  const auto times = [](const std::vector<double>& sorted) {
+    return fmt::format("{:8.1f} {:8.1f} {:8.1f}", sim::Percentile(sorted, 0.5), sim::Percentile(sorted, 0.99),
+                       sorted.back());
+  };
+  return fmt::format("{:4}  {:5} {:7} {:10} {:6} {:10.2f} {:9.1e}  {}  {}\n", horizon, start, line.solved,
+                     line.infeasible, line.failed, line.iterations / line.instances, line.largest_kkt,
+                     times(line.solve_us), times(line.build_solve_us));
+}
+
+}  // namespace
+
+void BenchQp(const BenchQpOptions& options, std::ostream& out) {
+  const std::map<int, std::vector<Named>> by_horizon = ReadFolder(options.folder);
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  if (!options.json) {
+    out << "                                                      solve [us]                  build and "
+           "solve [us]\n"
+           "   N  start  solved infeasible failed iterations       KKT    median      p99      max    median "
+           "     "
+           "p99      max\n";
+  }
+  for (const auto& [horizon, instances] : by_horizon) {
+    for (const bool warm : {false, true}) {
+      const char* start = warm ? "warm" : "cold";
+      const Line line = Measure(instances, warm, options.repeat);
+      if (options.json) {
+        rows.push_back(ToJson(horizon, start, line));
+      } else {
+        out << ToText(horizon, start, line);
+      }
+    }
+  }
+  if (options.json) out << rows.dump(2) << '\n';
+}
+
+}  // namespace tools
