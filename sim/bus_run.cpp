@@ -41,7 +41,8 @@ can::Time Now() {
 
 std::vector<can::Filter> ControllerFilters(const dbc::VehicleBus& bus) {
   std::vector<can::Filter> filters;
-  for (const char* name : {"SteeringCommand", "AccelerationCommand", "ControllerStatus"}) {
+  for (const char* name :
+       {"SteeringCommand", "AccelerationCommand", "ControllerStatus", "ConstraintReport"}) {
     const dbc::MessageInfo* info = bus.Find(std::string(name));
     if (info == nullptr) throw std::runtime_error(fmt::format("the bus has no message {}", name));
     filters.push_back(can::ExactStandardId(info->id));

@@ -129,9 +129,11 @@ void QpInstance::Build(Qp& qp) const {
       Eigen::Matrix<double, kNu, 1> D;
       numbers.Fill(C);
       numbers.Fill(D);
-      const double lo = numbers.One(), hi = numbers.One(), rho = numbers.One();
-      static_cast<void>(stage.AddRow(C, D, lo < -kAbsent ? -kNoBound : lo, hi > kAbsent ? kNoBound : hi, rho,
-                                     sigma_ ? numbers.One() : 0.0));
+      double lo = numbers.One(), hi = numbers.One();
+      if (lo < -kAbsent) lo = -kNoBound;
+      if (hi > kAbsent) hi = kNoBound;
+      const double rho = numbers.One(), sigma = sigma_ ? numbers.One() : 0.0;
+      static_cast<void>(stage.AddRow(C, D, lo, hi, rho, sigma));
     }
   }
 }

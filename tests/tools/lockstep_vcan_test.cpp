@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -114,6 +115,17 @@ TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
   for (std::size_t i = 0; i < in_memory.size(); ++i) {
     ASSERT_TRUE(can::SameOnWire(on_bus[i], in_memory[i])) << "command frame " << i;
   }
+}
+
+TEST_F(LockstepOnVcan, SummaryTellsWhatWasRelaxedAsInMemory) {
+  const auto relaxed = [](const std::string& summary) {
+    return std::stoi(summary.substr(summary.find("\"relaxed_steps\": ") + 17));
+  };
+  std::ostringstream on_bus;
+  on_bus << std::ifstream(folder->path() / "summary.json").rdbuf();
+  const int in_memory = relaxed(test_support::Run({LPVMPC, "run", "--scenario", kScenario, "--json"}).out);
+  EXPECT_GT(in_memory, 0);
+  EXPECT_EQ(relaxed(on_bus.str()), in_memory);
 }
 
 TEST_F(LockstepOnVcan, EveryFrameOnTheBusPassesItsChecks) {
