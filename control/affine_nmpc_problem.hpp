@@ -74,6 +74,11 @@ class AffineNmpcProblem final : public NonlinearProgram {
   [[nodiscard]] double Penalty(int i, int soft) const;
 
  private:
+  // Soft rows of a step that are not of the body: of the speed, then of the friction.
+  static constexpr int kSpeedRow = 0;
+  static constexpr std::array kFrictionSigns{0, 1, -1};  // of a in the friction's rows
+  static constexpr int kBodyRow = 1 + static_cast<int>(kFrictionSigns.size());
+
   // Of [z; u].
   using Curvature = Eigen::Matrix<double, kStates + kInputs, kStates + kInputs>;
   struct Step {

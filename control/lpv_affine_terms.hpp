@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "control/types.hpp"
 
@@ -16,6 +17,12 @@ inline constexpr std::size_t kScheduledDelta = kScheduledStates.size();
 
 inline std::size_t Index(int i) {
   return static_cast<std::size_t>(i);
+}
+
+// The vector that begins at x[i].
+template <typename Vector>
+Eigen::Map<const Vector> At(std::span<const double> x, int i) {
+  return Eigen::Map<const Vector>(x.subspan(Index(i), Vector::SizeAtCompileTime).data());
 }
 
 }  // namespace control::lpv_affine
