@@ -25,6 +25,10 @@ struct CycleReport {
   std::optional<control::ConstraintViolation> relaxation = std::nullopt;
   // What would go wrong with it. Of an accepted plan: no less, and no later, than with the last one.
   std::optional<control::ConstraintViolation> rejection = std::nullopt;
+  // The one of both that is told of: what the check found weighs more than what the plan says of itself.
+  [[nodiscard]] const std::optional<control::ConstraintViolation>& unmet() const {
+    return rejection ? rejection : relaxation;
+  }
   bool engagement_refused = false;  // the driver asked in this cycle and did not get it
   std::optional<FaultyMessage> faulty_message = std::nullopt;
   Time countdown = Time::max();  // until the vehicle is stopped, as things are; max: not driving

@@ -77,7 +77,7 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
 
 // At most once a second.
 void EventLog::Constraint(const CycleReport& report, Time now) {
-  const auto& violation = report.rejection ? report.rejection : report.relaxation;
+  const auto& violation = report.unmet();
   if (!violation || (constraint_told_ && now - last_constraint_ < 1s)) return;
   constraint_told_ = true;
   last_constraint_ = now;

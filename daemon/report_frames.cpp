@@ -82,10 +82,9 @@ void AppendDiagnostics(const CycleReport& report, const ModeState& mode, Command
 }
 
 void AppendConstraint(const CycleReport& report, CommandGate& gate, std::vector<can::Frame>& frames) {
-  // What the check found weighs more than what the plan says of itself; a plan that is followed all the same, as the lesser
-  // evil, gives way there.
+  // A plan that is followed all the same, as the lesser evil, gives way.
   const bool rejected = report.rejection && !report.plan_accepted;
-  const auto& violation = report.rejection ? report.rejection : report.relaxation;
+  const auto& violation = report.unmet();
   dbc::ConstraintReport told;
   if (violation) {
     const auto code = [](int value, int most) {

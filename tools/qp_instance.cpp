@@ -5,11 +5,12 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+
+#include "config/text_file.hpp"
 
 namespace tools {
 namespace {
@@ -25,11 +26,7 @@ constexpr std::string_view kSigma = "sigma";
 // Words and the lines that they stand in.
 class Words {
  public:
-  explicit Words(const std::filesystem::path& file) : file_(file) {
-    std::ifstream in(file);
-    if (!in) throw std::runtime_error(file.string() + ": cannot be read");
-    text_.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  explicit Words(const std::filesystem::path& file) : file_(file), text_(config::ReadTextFile(file)) {}
 
   // Empty at the end.
   std::string_view Next() {
@@ -45,8 +42,8 @@ class Words {
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty()) Fail("ends too early");
-    if (error != std::errc{} || end != word.data() + word.size()) Fail(fmt::format("{}: not a number", word));
-    if (std::isnan(value)) Fail(fmt::format("{}: not a number", word));
+    if (error != std::errc{} || end != word.data() + word.size() || std::isnan(value))
+      Fail(fmt::format("{}: not a number", config::Printable(word)));
     return value;
   }
   int Whole(std::string_view word, const char* name, int least, int most) const {
@@ -56,7 +53,7 @@ class Words {
     return static_cast<int>(value);
   }
   [[noreturn]] void Fail(const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line_, what));
+    throw std::runtime_error(fmt::format("{}:{}: {}", config::PlaceName(file_), line_, what));
   }
 
  private:
@@ -102,7 +99,7 @@ QpInstance::QpInstance(const std::filesystem::path& file) {
     take(rows * (kNx + kNu + (sigma_ ? 4 : 3)));
   }
   if (const std::string_view rest = words.Next(); !rest.empty())
-    words.Fail(fmt::format("{}: nothing more was expected", rest));
+    words.Fail(fmt::format("{}: nothing more was expected", config::Printable(rest)));
 }
 
 void QpInstance::Build(Qp& qp) const {

@@ -10,7 +10,6 @@
 
 #include <filesystem>
 #include <ostream>
-#include <string_view>
 #include <vector>
 
 #include "control/ocp_qp.hpp"

@@ -12,8 +12,7 @@
 namespace tools {
 
 inline constexpr const char* kCostStandard = "nmpc";  // the controller that the others' cost is compared with
-inline constexpr const char* kFixedRadius =
-    "lpv-affine-fixed";  // lpv-affine with the paper's fixed trust radius
+inline constexpr const char* kFixedRadius = "lpv-affine-fixed";  // its trust radius is not adapted
 
 // The daemon's defaults, but for what follows from the ranges and, of a controller that takes the vehicle for a point,
 // from its rectangle: obstacles are enlarged by half its width and what a corner stands out. lpv-affine reckons with the

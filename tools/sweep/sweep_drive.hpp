@@ -34,8 +34,8 @@ struct SweepDrive {
   int infeasible_steps = 0;
   std::optional<double> min_clearance_m;
   std::optional<double> min_road_margin_m;
-  std::optional<double>
-      cost;  // by the default weights of control::MpcSettings and the road beside the vehicle, whoever drives
+  // By the default weights of control::MpcSettings and the road beside the vehicle, whoever drives.
+  std::optional<double> cost;
   std::optional<double> rms_steering_rate;  // [rad/s]
   std::optional<double> rms_jerk;           // [m/s³]
 };
