@@ -51,6 +51,10 @@ struct Plan {
   ConstraintViolation relaxation;  // largest slack of another soft constraint; amount 0: none
 };
 
+template <int kNx, int kNu>
+struct OcpQp;
+using QpObserver = std::function<void(const OcpQp<8, 2>&)>;
+
 class Controller {
  public:
   virtual ~Controller() = default;
@@ -63,6 +67,8 @@ class Controller {
   // After a step that was not solved: which hard constraint stands most in the way, and by how much. None where that
   // is not known. It solves, and does not allocate, but for an NMPC's.
   [[nodiscard]] virtual std::optional<ConstraintViolation> Unsatisfied() const { return std::nullopt; }
+  // Shows from now on every quadratic problem of a step before it is solved. False if the controller solves none.
+  [[nodiscard]] virtual bool ShowQps(QpObserver /*observer*/) { return false; }
 };
 
 }  // namespace control

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "control/lpv_affine_terms.hpp"
 
@@ -16,6 +17,7 @@ LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const Course& cours
       task_(vehicle, course, settings),
       qp_(settings.horizon),
       solver_(settings.horizon, settings.qp),
+      guess_(settings.horizon),
       constraints_(Index(settings.horizon) + 1),
       prediction_(settings.horizon) {
   const std::size_t N = Index(settings.horizon);
@@ -25,8 +27,14 @@ LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const Course& cours
 
 void LpvAffineMpc::Reset() {
   prediction_.Drop();
+  has_guess_ = false;
   trust_scale_ = 1.0;
   task_.Reset();
+}
+
+bool LpvAffineMpc::ShowQps(QpObserver observer) {
+  show_qp_ = std::move(observer);
+  return true;
 }
 
 const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
@@ -47,6 +55,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
     task_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
     prediction_.Drop();
+    has_guess_ = false;
   } else {
     Solve(input);
   }
@@ -79,18 +88,24 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   for (int k = 0; k < most; ++k) {
     if (k >= least && input.time_left != nullptr && !(*input.time_left)()) break;
     // An obstacle that finds no room in the problem must not be ignored.
-    const QpResult result = BuildQp(input.u_previous) ? solver_.Solve(qp_) : QpResult{};
+    const bool built = BuildQp(input.u_previous);
+    if (built && show_qp_) show_qp_(qp_);
+    const QpResult result = built ? solver_.Solve(qp_, has_guess_ ? &guess_ : nullptr) : QpResult{};
     plan_.iterations += result.iterations;
     if (result.status != SolverStatus::kSolved) {
       if (k == 0) plan_.status = result.status;
+      has_guess_ = false;
       break;
     }
     plan_.status = result.status;
+    has_guess_ = result.method != QpMethod::kBase;  // which has no multipliers
+    if (has_guess_) guess_ = solver_.solution();
     const double change = ReadPlan();
     prediction_.Take(plan_);
     if (change <= settings_.converged) break;
   }
   prediction_.Shift();
+  if (has_guess_) guess_.Shift();
 }
 
 bool LpvAffineMpc::BuildQp(const Input& u_previous) {

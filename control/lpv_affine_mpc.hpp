@@ -39,6 +39,7 @@ class LpvAffineMpc final : public Controller {
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
   [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
   void Reset() override;
+  [[nodiscard]] bool ShowQps(QpObserver observer) override;
 
   // The QP of the last step, and its reference: for recording and for tests.
   [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }
@@ -62,10 +63,13 @@ class LpvAffineMpc final : public Controller {
   DrivingTask task_;
   OcpQp<8, 2> qp_;
   OcpQpSolver<8, 2> solver_;
+  OcpQpPoint<8, 2> guess_;
   std::vector<std::array<Constraint, kMaxRows>> constraints_;  // what the rows of each stage stand for
   Plan plan_;
+  QpObserver show_qp_;
 
   Prediction prediction_;
+  bool has_guess_ = false;    // guess_ holds the last QP's solution, shifted where that was the last step's
   double trust_scale_ = 1.0;  // of the trust region's radii
 };
 

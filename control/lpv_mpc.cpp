@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "control/halfspace.hpp"
 
@@ -40,6 +41,11 @@ void LpvMpc::Reset() {
   has_guess_ = false;
 }
 
+bool LpvMpc::ShowQps(QpObserver observer) {
+  show_qp_ = std::move(observer);
+  return true;
+}
+
 const Plan& LpvMpc::Step(const ControllerInput& input) {
   assert(input.reference.size() == plan_.z.size());
   const bool scheduled_by_plan = has_prediction_;
@@ -58,6 +64,7 @@ const Plan& LpvMpc::Step(const ControllerInput& input) {
     std::ranges::fill(predicted_u_, input.u_previous);
   }
   BuildQp(input);
+  if (show_qp_) show_qp_(qp_);
   const QpResult result = solver_.Solve(qp_, has_guess_ ? &guess_ : nullptr);
   plan_.status = result.status;
   plan_.iterations = result.iterations;
@@ -213,10 +220,8 @@ void LpvMpc::PredictNext() {
     std::ranges::copy(plan_.z, predicted_z_.begin());
     std::ranges::copy(plan_.u, predicted_u_.begin());
     has_prediction_ = true;
-    const auto& solved = solver_.solution().stages;
-    // The last two stages keep their own: the rows of stage N are not those of stage N − 1.
-    for (std::size_t i = 0; i < solved.size(); ++i)
-      guess_.stages[i] = solved[i + 2 < solved.size() ? i + 1 : i];
+    guess_ = solver_.solution();
+    guess_.Shift();
   }
   std::shift_left(predicted_z_.begin(), predicted_z_.end(), 1);
   std::shift_left(predicted_u_.begin(), predicted_u_.end(), 1);

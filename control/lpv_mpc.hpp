@@ -37,6 +37,7 @@ class LpvMpc final : public Controller {
   void Reset() override;
   // The row that needs the largest slack if the rows that hold states (bounds, road, obstacles) are made soft.
   [[nodiscard]] std::optional<ConstraintViolation> Unsatisfied() const override;
+  [[nodiscard]] bool ShowQps(QpObserver observer) override;
 
   // The QP of the last step, for recording and for tests.
   [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }
@@ -58,6 +59,7 @@ class LpvMpc final : public Controller {
   mutable OcpQpSolver<8, 2> elastic_solver_;
   OcpQpPoint<8, 2> guess_;
   Plan plan_;
+  QpObserver show_qp_;
   bool has_guess_ = false;          // guess_ holds the last step's solution, shifted
   bool has_prediction_ = false;     // false: no plan yet, schedule from the measured state
   std::vector<State> predicted_z_;  // ẑ, û: the last plan, shifted to the present

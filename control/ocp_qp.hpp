@@ -41,6 +41,7 @@ struct OcpQpRow {
 
   [[nodiscard]] bool soft() const { return rho >= 0.0; }
   [[nodiscard]] bool exact() const { return soft() && sigma > 0.0; }  // its slack has the bound ε ≥ 0
+  [[nodiscard]] bool weightless() const { return rho == 0.0 && sigma == 0.0; }  // costs nothing to violate
   [[nodiscard]] bool has_lo() const { return lo > -kNoBound; }
   [[nodiscard]] bool has_hi() const { return hi < kNoBound; }
 };
@@ -83,6 +84,9 @@ struct OcpQp {
 struct RowMultiplier {
   double lo = 0.0;
   double hi = 0.0;
+
+  // More than an interior point leaves of a multiplier whose row does not.
+  [[nodiscard]] bool Presses() const { return std::max(lo, hi) > 1e-6; }
 };
 
 // A primal-dual point. π_i is the multiplier of the dynamics that give x_i (i ≥ 1); π_0 is unused.
@@ -96,6 +100,9 @@ struct OcpQpPoint {
     std::array<double, kMaxRows> slack{};  // ε
   };
   explicit OcpQpPoint(int horizon) : stages(static_cast<std::size_t>(horizon) + 1) {}
+  // A guess for the problem one stage later. The last two stages keep their own: the rows of stage N are not those of
+  // stage N − 1.
+  void Shift() { std::copy(stages.begin() + 1, stages.end() - 1, stages.begin()); }
 
   std::vector<Stage> stages;
 };

@@ -22,8 +22,7 @@
 // input alone is a term of R, one with D = 0 is one of Q.
 #pragma once
 
-#include <Eigen/Cholesky>
-
+#include "control/ocp_qp_riccati.hpp"
 #include "control/ocp_qp_rows.hpp"
 #include "control/ocp_qp_solver.hpp"
 
@@ -32,6 +31,7 @@ namespace control {
 // Row weights and the matrices of the Riccati recursion. False if a pivot is not positive.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
+  using detail::Product;
   for (std::size_t i = work_.size(); i-- > 0;) {
     const auto& stage = qp.stages[i];
     auto& work = work_[i];
@@ -55,16 +55,16 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
       at.w = (4.0 * at.lo.w * at.hi.w + slack_w * at.w) * at.inverse_s;
     }
 
-    MatrixXX& P = work.P;
+    auto& riccati = riccati_[i];
+    MatrixXX& P = riccati.P;
     if (terminal) {
       P = stage.Q.asDiagonal();
     } else {
-      const MatrixXX& P_next = work_[i + 1].P;
-      const MatrixXX PA = P_next * stage.A;
-      const MatrixXU PB = P_next * stage.B;
-      MatrixUU H_uu = stage.R.asDiagonal();
-      H_uu.noalias() += stage.B.transpose() * PB;
-      MatrixUX H_ux = stage.B.transpose() * PA;
+      const MatrixXX& P_next = riccati_[i + 1].P;
+      const MatrixXU PB = Product(P_next, stage.B);
+      MatrixUU H_uu = Product(stage.B.transpose(), PB);
+      H_uu.diagonal() += stage.R;
+      MatrixXU H_xu = Product(stage.A.transpose(), PB);
       VectorU R = stage.R;
       for (std::size_t j = 0; j < row_count; ++j) {
         const auto& row = stage.rows[j];
@@ -73,20 +73,17 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
           R[row.unit - kNx] += work.rows[j].w;
         } else if (row.holds_input) {
           const VectorU wD = work.rows[j].w * row.D;
-          H_ux.noalias() += wD * row.C.transpose();
-          H_uu.noalias() += wD * row.D.transpose();
+          H_xu += Product(row.C, wD.transpose());
+          H_uu += Product(wD, row.D.transpose());
         }
       }
-      const Eigen::LLT<MatrixUU> llt(H_uu);
-      if (llt.info() != Eigen::Success) return false;
-      work.L_inverse = llt.matrixL().solve(MatrixUU::Identity());
-      const MatrixUX L_inverse_H_ux = work.L_inverse * H_ux;
-      work.K.noalias() = -work.L_inverse.transpose() * L_inverse_H_ux;
-      work.A_K = stage.A;
-      work.A_K.noalias() += stage.B * work.K;
-      const MatrixXX PA_K = PA + PB * work.K;
-      P.noalias() = work.A_K.transpose() * PA_K;
-      P.noalias() += work.K.transpose() * (R.asDiagonal() * work.K);
+      if (!riccati.FactoriseInput(H_uu)) return false;
+      riccati.K_transposed = riccati.SolveInput(H_xu.transpose()).transpose();
+      riccati.A_K = stage.A + Product(stage.B, riccati.K_transposed.transpose());
+      riccati.A_K_transposed = riccati.A_K.transpose();
+      const MatrixXX PA_K = Product(P_next, riccati.A_K);
+      const MatrixXU KR = riccati.K_transposed * R.asDiagonal();
+      P = Product(riccati.A_K_transposed, PA_K) + Product(KR, riccati.K_transposed.transpose());
       P = (0.5 * (P + P.transpose())).eval();
       P.diagonal() += stage.Q;
     }
@@ -99,9 +96,9 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
         continue;
       }
       VectorX C_K = row.C;
-      if (row.holds_input && !terminal) C_K.noalias() += work.K.transpose() * row.D;
+      if (row.holds_input && !terminal) C_K += Product(riccati.K_transposed, row.D);
       const VectorX wC_K = w * C_K;
-      P.noalias() += wC_K * C_K.transpose();
+      P += Product(wC_K, C_K.transpose());
     }
   }
   return true;
@@ -110,12 +107,12 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
 // The Newton step towards λ t = target, with Mehrotra's second-order term of the step before it if asked for.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order) {
-  const std::size_t N = work_.size() - 1;
-  for (std::size_t i = N + 1; i-- > 0;) {
+  for (std::size_t i = 0; i < work_.size(); ++i) {
     const auto& stage = qp.stages[i];
     auto& work = work_[i];
-    VectorU h_u = work.r_u;
-    work.p = work.r_x;
+    auto& sweep = sweep_[i];
+    sweep.p = work.r_x;
+    sweep.k = work.r_u;
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
       RowWork& at = work.rows[j];
@@ -129,32 +126,15 @@ void OcpQpSolver<kNx, kNu>::Step(const Qp& qp, double target, bool second_order)
       side(at.slack);
       at.y = at.lo.y + at.hi.y + at.slack.y - at.r_epsilon;
       const double gradient = at.hi.y - at.lo.y + (at.lo.w - at.hi.w) * at.y * at.inverse_s;
-      detail::AddRowGradient(row, gradient, work.p, h_u);
+      detail::AddRowGradient(row, gradient, sweep.p, sweep.k);
     }
-    if (i == N) continue;
-    const VectorX& p_next = work_[i + 1].p;
-    work.p.noalias() += work.A_K.transpose() * p_next;
-    work.p.noalias() += work.K.transpose() * h_u;
-    h_u.noalias() += stage.B.transpose() * p_next;
-    work.k = -work.L_inverse.transpose() * (work.L_inverse * h_u);
   }
-  work_[0].dx.setZero();
-  work_[0].dpi.setZero();
-  work_[N].du.setZero();
-  for (std::size_t i = 0; i < N; ++i) {
-    auto& work = work_[i];
-    auto& next = work_[i + 1];
-    work.du = work.k;
-    work.du.noalias() += work.K * work.dx;
-    next.dx.noalias() = qp.stages[i].A * work.dx;
-    next.dx.noalias() += qp.stages[i].B * work.du;
-    next.dpi = next.p;
-    next.dpi.noalias() += next.P * next.dx;
-  }
+  detail::SweepRiccati(qp, riccati_, work_.size() - 1, sweep_);
   longest_ = kNoBound;
   first_order_ = second_order_ = 0.0;
-  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& at, const StageWork& stage) {
-    const double dg = detail::RowValue(row, stage.dx, stage.du);
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    RowWork& at = work_[i].rows[j];
+    const double dg = detail::RowValue(row, sweep_[i].dx, sweep_[i].du);
     at.depsilon = (at.y - (at.lo.w - at.hi.w) * dg) * at.inverse_s;
     const auto side = [&](Side& s, double distance_step) {
       if (!s.present) return;

@@ -9,14 +9,18 @@ namespace control {
 
 namespace detail {
 
-// Calls visit(row, row work, stage work) for every row.
-template <typename Qp, typename Work, typename Visit>
-void ForEachRow(const Qp& qp, Work& work, Visit&& visit) {
+// 0 if every entry is finite, not a number otherwise.
+template <typename Matrix>
+double ZeroIfFinite(const Matrix& matrix) {
+  return (0.0 * matrix).sum();
+}
+
+// Calls visit(row, its stage, its index there) for every row.
+template <typename Qp, typename Visit>
+void ForEachRow(const Qp& qp, Visit&& visit) {
   for (std::size_t i = 0; i < qp.stages.size(); ++i) {
     const auto& stage = qp.stages[i];
-    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
-      visit(stage.rows[j], work[i].rows[j], work[i]);
-    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) visit(stage.rows[j], i, j);
   }
 }
 

@@ -15,21 +15,29 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "control/controller.hpp"
+#include "control/dual_active_set.hpp"
 #include "control/ocp_qp.hpp"
+#include "control/ocp_qp_riccati.hpp"
 
 namespace control {
 
 struct QpSettings {
   double tolerance = 1e-8;  // largest KKT residual of a solved problem, absolute, in the problem's units
-  int max_iterations = 60;
+  int max_iterations = 60;  // of the interior point
+  int max_known_rows = 96;  // that the active set may look at; 0: the interior point alone
 };
+
+enum class QpMethod : std::uint8_t { kBase, kActiveSet, kInteriorPoint };
 
 struct QpResult {
   SolverStatus status = SolverStatus::kNumericalFailure;
-  int iterations = 0;
+  QpMethod method = QpMethod::kBase;  // that gave the answer
+  int iterations = 0;                 // changes of the active set, or iterations of the interior point
   double kkt_residual = 0.0;
 };
 
@@ -56,6 +64,8 @@ class OcpQpSolver {
 
  private:
   static constexpr double kDualRegularisation = 1e-10;  // δ
+
+  static constexpr int kBatch = 4;
 
   using VectorX = Eigen::Matrix<double, kNx, 1>;
   using VectorU = Eigen::Matrix<double, kNu, 1>;
@@ -88,18 +98,32 @@ class OcpQpSolver {
     double w = 0.0;
     double depsilon = 0.0;
   };
-  // Deviations from the base, the optimum without rows, and the recursion's results.
+  struct RowPlace {
+    std::size_t stage, row;
+    double violation;
+  };
+  // The base, the optimum without rows, and deviations from it.
   struct StageWork {
-    VectorX base_x, base_pi, x, pi, dx, dpi, r_x, p;
-    VectorU base_u, u, du, r_u, k;
-    MatrixXX P, A_K;
-    MatrixUX K;
-    MatrixUU L_inverse;  // of H_uu = L Lᵀ: beside a w of 1e10 the inverse of H_uu has few digits
+    VectorX base_x, base_pi, x, pi, r_x;
+    VectorU base_u, u, r_u;
+    std::array<double, kMaxRows> lo, hi;  // bounds for deviations
+    std::array<int, kMaxRows> known;      // the row's index in the dual; −1: not there
     std::array<RowWork, kMaxRows> rows;
   };
 
   bool SolveBase(const Qp& qp);
   bool ShiftRows(const Qp& qp);
+  std::optional<SolverStatus> SolveByActiveSet(const Qp& qp, const Point* guess, QpResult& result);
+  [[nodiscard]] double RowTolerance() const { return 0.1 * settings_.tolerance; }
+  [[nodiscard]] static double SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation);
+  bool FindViolated(const Qp& qp, const Point* guess);
+  bool AddRows(const Qp& qp);
+  void MoveToMultipliers(const Qp& qp);
+  double StationarityError(const Qp& qp);
+  bool ProveByRay(const Qp& qp);
+  void WriteActiveSet(const Qp& qp);
+
+  void StartRows(const Qp& qp);
   void StartCold(const Qp& qp);
   bool StartFrom(const Qp& qp, const Point& guess);
   void StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& work, const VectorX& x, const VectorU& u,
@@ -114,11 +138,21 @@ class OcpQpSolver {
     return mu_ + alpha * (first_order_ + alpha * second_order_) / std::max(sides_, 1);
   }
   void Move(const Qp& qp, double alpha);
+  void WriteBase(const Qp& qp);
+  void WriteWeightlessSlacks(const Qp& qp);
   void WriteSolution(const Qp& qp);
 
   QpSettings settings_;
   Point point_;
   std::vector<StageWork> work_;
+  std::vector<detail::RiccatiStage<kNx, kNu>> riccati_;
+  std::vector<detail::SweepStage<kNx, kNu, 1>> sweep_;
+  std::vector<detail::SweepStage<kNx, kNu, kBatch>> responses_;
+  DualActiveSet dual_;
+  std::vector<RowPlace> known_;       // the dual's rows
+  std::vector<RowPlace> candidates_;  // to be added to them
+  double row_error_ = 0.0;  // largest error of a row's condition of optimality at x, u and the dual's λ
+  bool has_weightless_rows_ = false;
   double mu_ = 0.0;                                // mean complementarity
   double longest_ = 0.0;                           // the step of this length brings the first t or λ to zero
   double first_order_ = 0.0, second_order_ = 0.0;  // of the sum of all λ t, in the step's length

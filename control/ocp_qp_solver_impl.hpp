@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/ocp_qp_active_set.hpp"
 #include "control/ocp_qp_impl.hpp"
 #include "control/ocp_qp_newton.hpp"
 #include "control/ocp_qp_rows.hpp"
@@ -20,12 +21,6 @@
 namespace control {
 
 namespace detail {
-
-// 0 if every entry is finite, not a number otherwise.
-template <typename Matrix>
-double ZeroIfFinite(const Matrix& matrix) {
-  return (0.0 * matrix).sum();
-}
 
 // True if every number is finite, but for the infinite bounds that are absent, and no σ negative.
 // Comparisons alone would not do: a bound that is not a number looks absent, a weight that is not one looks
@@ -53,18 +48,36 @@ bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
 
 template <int kNx, int kNu>
 OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
-    : settings_(settings), point_(horizon), work_(static_cast<std::size_t>(horizon) + 1) {}
+    : settings_(settings),
+      point_(horizon),
+      work_(static_cast<std::size_t>(horizon) + 1),
+      riccati_(work_.size()),
+      sweep_(work_.size()),
+      responses_(work_.size()),
+      dual_(settings.max_known_rows) {
+  known_.reserve(static_cast<std::size_t>(settings.max_known_rows));
+  candidates_.reserve(static_cast<std::size_t>(settings.max_known_rows) + kBatch);
+}
 
 template <int kNx, int kNu>
 QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
   QpResult result;
   if (!detail::HasFiniteData(qp) || !SolveBase(qp)) return result;
-  if (ShiftRows(qp)) {
-    WriteSolution(qp);
+  const bool satisfied = ShiftRows(qp);
+  WriteBase(qp);
+  if (satisfied) {
     result.kkt_residual = EvaluateKkt(qp, point_).Max();
     if (result.kkt_residual <= settings_.tolerance) result.status = SolverStatus::kSolved;
     return result;
   }
+  result.method = QpMethod::kActiveSet;
+  if (const auto status = SolveByActiveSet(qp, guess, result)) {
+    result.status = *status;
+    return result;
+  }
+  result.method = QpMethod::kInteriorPoint;
+  result.iterations = 0;
+  StartRows(qp);
   if (guess == nullptr || !StartFrom(qp, *guess)) StartCold(qp);
   constexpr int kMaxHalvings = 6;
   constexpr double kShort = 0.9;
@@ -118,15 +131,15 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
   if (!Factorise(qp, false)) return false;
+  using detail::Product;
   const std::size_t N = work_.size() - 1;
-  work_[N].p = qp.stages[N].q;
+  sweep_[N].p = qp.stages[N].q;
   for (std::size_t i = N; i-- > 0;) {
     const auto& stage = qp.stages[i];
-    auto& work = work_[i];
-    const VectorX p_next = work_[i + 1].P * stage.c + work_[i + 1].p;
-    const VectorU h_u = stage.r + stage.B.transpose() * p_next;
-    work.k = -work.L_inverse.transpose() * (work.L_inverse * h_u);
-    work.p = stage.q + work.A_K.transpose() * p_next + work.K.transpose() * stage.r;
+    const auto& riccati = riccati_[i];
+    const VectorX p_next = sweep_[i + 1].p + Product(riccati_[i + 1].P, stage.c);
+    sweep_[i].k = riccati.SolveInput((stage.r + Product(stage.B.transpose(), p_next)).eval());
+    sweep_[i].p = stage.q + Product(riccati.A_K_transposed, p_next) + Product(riccati.K_transposed, stage.r);
   }
   work_[0].base_x = qp.x0;
   work_[0].base_pi.setZero();
@@ -134,9 +147,9 @@ bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
     const auto& stage = qp.stages[i];
     auto& work = work_[i];
     auto& next = work_[i + 1];
-    work.base_u = work.k + work.K * work.base_x;
-    next.base_x = stage.A * work.base_x + stage.B * work.base_u + stage.c;
-    next.base_pi = next.P * next.base_x + next.p;
+    work.base_u = sweep_[i].k + Product(riccati_[i].K_transposed.transpose(), work.base_x);
+    next.base_x = stage.c + Product(stage.A, work.base_x) + Product(stage.B, work.base_u);
+    next.base_pi = sweep_[i + 1].p + Product(riccati_[i + 1].P, next.base_x);
   }
   work_[N].base_u.setZero();
   return work_[N].base_x.allFinite() && work_[N].base_pi.allFinite();
@@ -145,25 +158,37 @@ bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
 // Bounds for deviations from the base. True if the base itself violates none.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
-  bool satisfied = true;
-  sides_ = 0;
-  for (auto& work : work_) {
-    work.x.setZero();
-    work.u.setZero();
-    work.pi.setZero();
-  }
-  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
-    const double value = detail::RowValue(row, stage.base_x, stage.base_u);
-    work = RowWork{};
-    work.lo.present = row.has_lo();
-    work.hi.present = row.has_hi();
-    work.slack.present = row.exact();
-    work.lo.bound = row.lo - value;
-    work.hi.bound = row.hi - value;
-    satisfied = satisfied && work.lo.bound <= 0.0 && work.hi.bound >= 0.0;
-    sides_ += static_cast<int>(row.has_lo()) + static_cast<int>(row.has_hi()) + static_cast<int>(row.exact());
+  double violation = 0.0;
+  has_weightless_rows_ = false;
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    auto& work = work_[i];
+    const double value = detail::RowValue(row, work.base_x, work.base_u);
+    work.lo[j] = row.lo - value;
+    work.hi[j] = row.hi - value;
+    if (row.weightless())
+      has_weightless_rows_ = true;
+    else
+      violation = std::max({violation, work.lo[j], -work.hi[j]});
   });
-  return satisfied;
+  return violation == 0.0;
+}
+
+// The interior point's work space for the rows.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::StartRows(const Qp& qp) {
+  sides_ = 0;
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    RowWork& work = work_[i].rows[j];
+    work = RowWork{};
+    const auto side = [this](Side& s, bool present, double bound) {
+      s.present = present;
+      s.bound = bound;
+      sides_ += static_cast<int>(present);
+    };
+    side(work.lo, row.has_lo(), work_[i].lo[j]);
+    side(work.hi, row.has_hi(), work_[i].hi[j]);
+    side(work.slack, row.exact(), 0.0);
+  });
 }
 
 // Residuals of all equations but λ t = 0 into the work space, and μ. Returns the largest KKT residual.
@@ -182,9 +207,8 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
     work.r_x = stage.Q.cwiseProduct(work.x) - work.pi;
     work.r_u.setZero();
     if (i < N) {
-      work.r_x.noalias() += stage.A.transpose() * work_[i + 1].pi;
-      work.r_u = stage.R.cwiseProduct(work.u);
-      work.r_u.noalias() += stage.B.transpose() * work_[i + 1].pi;
+      work.r_x += detail::Product(stage.A.transpose(), work_[i + 1].pi);
+      work.r_u = stage.R.cwiseProduct(work.u) + detail::Product(stage.B.transpose(), work_[i + 1].pi);
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
@@ -216,21 +240,50 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
 
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::Move(const Qp& qp, double alpha) {
-  for (auto& work : work_) {
-    work.x += alpha * work.dx;
-    work.u += alpha * work.du;
-    work.pi += alpha * work.dpi;
+  for (std::size_t i = 0; i < work_.size(); ++i) {
+    auto& work = work_[i];
+    const auto& sweep = sweep_[i];
+    work.x += alpha * sweep.dx;
+    work.u += alpha * sweep.du;
+    if (i > 0) work.pi += alpha * (sweep.p + detail::Product(riccati_[i].P, sweep.dx));
   }
   const auto side = [&](Side& s) {
     if (!s.present) return;
     s.t += alpha * s.dt;
     s.lambda += alpha * s.dlambda;
   };
-  detail::ForEachRow(qp, work_, [&](const auto&, RowWork& at, const auto&) {
+  detail::ForEachRow(qp, [&](const auto&, std::size_t i, std::size_t j) {
+    RowWork& at = work_[i].rows[j];
     side(at.lo);
     side(at.hi);
     side(at.slack);
     at.epsilon += alpha * at.depsilon;
+  });
+}
+
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::WriteBase(const Qp& qp) {
+  for (std::size_t i = 0; i < work_.size(); ++i) {
+    const auto& work = work_[i];
+    auto& at = point_.stages[i];
+    at.x = work.base_x;
+    at.u = work.base_u;
+    at.pi = work.base_pi;
+    std::fill_n(at.lambda.begin(), qp.stages[i].row_count, RowMultiplier{});
+    std::fill_n(at.slack.begin(), qp.stages[i].row_count, 0.0);
+  }
+  WriteWeightlessSlacks(qp);
+}
+
+// Of the rows that cost nothing: whatever they need.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::WriteWeightlessSlacks(const Qp& qp) {
+  if (!has_weightless_rows_) return;
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    if (!row.weightless()) return;
+    auto& at = point_.stages[i];
+    const double value = detail::RowValue(row, at.x, at.u);
+    at.slack[j] = std::max({0.0, row.lo - value, value - row.hi});
   });
 }
 

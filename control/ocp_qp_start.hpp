@@ -55,12 +55,12 @@ void OcpQpSolver<kNx, kNu>::StartCold(const Qp& qp) {
     work.u.setZero();
     work.pi.setZero();
   }
-  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork&) {
-    const bool violated = work.lo.bound > 0.0 || work.hi.bound < 0.0;
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    const bool violated = work_[i].lo[j] > 0.0 || work_[i].hi[j] < 0.0;
     if (row.exact() && violated) mu = std::clamp(kShare * row.sigma, mu, kMostMu);
   });
-  detail::ForEachRow(qp, work_, [&](const auto& row, RowWork& work, const StageWork& stage) {
-    StartRow(row, work, stage.x, stage.u, kShare, mu, {});
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    StartRow(row, work_[i].rows[j], work_[i].x, work_[i].u, kShare, mu, {});
   });
 }
 

@@ -16,7 +16,7 @@ _lpvmpcd() {
       ;;
     --config | --scenario) _filedir toml && return ;;
     --log | -o | --output) _filedir && return ;;
-    --out | --scenarios) _filedir -d && return ;;
+    --out | --record-qp | --scenarios) _filedir -d && return ;;
     --horizon | --repeat | --jobs | --timeout | --count | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers
   esac
 

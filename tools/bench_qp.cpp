@@ -1,6 +1,7 @@
 #include "tools/bench_qp.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fmt/format.h>
 #include <map>
@@ -27,7 +28,8 @@ struct Named {
 
 struct Line {
   int instances = 0, solved = 0, infeasible = 0, failed = 0;
-  double iterations = 0.0;  // of all instances
+  std::array<int, 3> by_method{};  // control::QpMethod
+  double iterations = 0.0;         // of all instances
   double largest_kkt = 0.0;
   std::vector<double> solve_us;        // the solve alone
   std::vector<double> build_solve_us;  // and the problem built first
@@ -80,6 +82,7 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
       }));
     }
     ++line.instances;
+    ++line.by_method[static_cast<std::size_t>(result.method)];
     line.iterations += result.iterations;
     const bool solved = result.status == control::SolverStatus::kSolved;
     if (solved) {
@@ -112,6 +115,9 @@ nlohmann::ordered_json ToJson(int horizon, const char* start, const Line& line) 
           {"solved", line.solved},
           {"infeasible", line.infeasible},
           {"failed", line.failed},
+          {"base", line.by_method[0]},
+          {"active_set", line.by_method[1]},
+          {"interior_point", line.by_method[2]},
           {"mean_iterations", line.iterations / line.instances},
           {"largest_kkt_residual", line.largest_kkt},
           {"solve", TimesJson(line.solve_us)},
@@ -123,8 +129,9 @@ std::string ToText(int horizon, const char* start, const Line& line) {
     return fmt::format("{:8.1f} {:8.1f} {:8.1f}", sim::Percentile(sorted, 0.5), sim::Percentile(sorted, 0.99),
                        sorted.back());
   };
-  return fmt::format("{:4}  {:5} {:7} {:10} {:6} {:10.2f} {:9.1e}  {}  {}\n", horizon, start, line.solved,
-                     line.infeasible, line.failed, line.iterations / line.instances, line.largest_kkt,
+  return fmt::format("{:4}  {:5} {:7} {:10} {:6} {:6} {:6} {:6} {:10.2f} {:9.1e}  {}  {}\n", horizon, start,
+                     line.solved, line.infeasible, line.failed, line.by_method[0], line.by_method[1],
+                     line.by_method[2], line.iterations / line.instances, line.largest_kkt,
                      times(line.solve_us), times(line.build_solve_us));
 }
 
@@ -134,11 +141,9 @@ void BenchQp(const BenchQpOptions& options, std::ostream& out) {
   const std::map<int, std::vector<Named>> by_horizon = ReadFolder(options.folder);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!options.json) {
-    out << "                                                      solve [us]                  build and "
-           "solve [us]\n"
-           "   N  start  solved infeasible failed iterations       KKT    median      p99      max    median "
-           "     "
-           "p99      max\n";
+    out << fmt::format("{:76}{:28}{}\n", "", "solve [us]", "build and solve [us]")
+        << "   N  start  solved infeasible failed   base active  inter iterations       KKT"
+        << "    median      p99      max    median      p99      max\n";
   }
   for (const auto& [horizon, instances] : by_horizon) {
     for (const bool warm : {false, true}) {

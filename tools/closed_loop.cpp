@@ -30,6 +30,11 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Confi
   untimed.loop.deadline = lpvmpcd::Time::max();
   const auto make = [&](const lpvmpcd::Config& of, const control::Course& course) {
     std::unique_ptr<control::Controller> law = tools::MakeController(of, course);
+    if (hooks.qp && !law->ShowQps(hooks.qp)) {
+      throw std::invalid_argument(
+          fmt::format("controller {} solves no quadratic problem that could be recorded",
+                      lpvmpcd::ControllerName(of.controller)));
+    }
     if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
     return law;
   };

@@ -19,12 +19,15 @@ struct ClosedLoopHooks {
   std::function<void(const can::Frame&)> frame = nullptr;
   // Called after every step of the controller.
   std::function<void(const StepObservation&)> step = nullptr;
+  // Called with every quadratic problem before it is solved. The controller must be one that solves them.
+  control::QpObserver qp = nullptr;
   // Asked after every cycle: true ends the drive there.
   std::function<bool()> stop = nullptr;
 };
 
 // Drives the scenario to its end. Throws one line, before anything is driven: std::runtime_error if a file of the
-// configuration is missing or wrong, std::invalid_argument if its period is not the vehicle's.
+// configuration is missing or wrong, std::invalid_argument if its period is not the vehicle's, or if `hooks.qp` is set for
+// a controller that solves no quadratic problem.
 [[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const lpvmpcd::Config& config,
                                            const ClosedLoopHooks& hooks = {});
 // With a route of the caller's instead of the configuration's file.

@@ -107,6 +107,8 @@ int main(int argc, char** argv) {
       ->add_option("--out", run.out,
                    "write candump.log, summary.json, drive.toml and report.html into this folder")
       ->excludes("--log");
+  run_command->add_option("--record-qp", run.record_qp,
+                          "write every quadratic problem of the controller into this folder, for bench qp");
   run_command->add_flag("--json", run.json, "summary as JSON");
 
   std::string log = "-";

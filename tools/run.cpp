@@ -5,11 +5,14 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "can/candump_log.hpp"
+#include "config/text_file.hpp"
 #include "tools/closed_loop.hpp"
+#include "tools/qp_instance.hpp"
 #include "tools/report.hpp"
 #include "tools/scenario_config.hpp"
 #include "tools/sweep/random_scenario.hpp"
@@ -50,6 +53,23 @@ void WriteDriveFileOf(const RunOptions& options, const Task& task) {
   }
 }
 
+// Writes each problem into a file of its own, numbered in order.
+control::QpObserver Recorder(const std::filesystem::path& folder) {
+  if (std::filesystem::is_directory(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() != ".qp") continue;
+      throw std::invalid_argument(
+          fmt::format("--record-qp: {} holds problems of another run", config::PlaceName(folder)));
+    }
+  }
+  return [folder, count = 0](const control::OcpQp<8, 2>& qp) mutable {
+    if (count == 0) MakeFolder(folder);
+    std::ostringstream text;
+    WriteQpInstance(qp, text);
+    WriteFile(folder / fmt::format("qp_{:06}.qp", count++), text.str());
+  };
+}
+
 }  // namespace
 
 int Run(const RunOptions& options, std::ostream& out) {
@@ -71,6 +91,7 @@ int Run(const RunOptions& options, std::ostream& out) {
       log << can::FormatCandumpLine(frame, config.service.interface) << '\n';
     };
   }
+  if (!options.record_qp.empty()) hooks.qp = Recorder(options.record_qp);
   const auto start = std::chrono::steady_clock::now();
   const sim::Summary summary = DriveClosedLoop(task.scenario, config, task.route, hooks);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

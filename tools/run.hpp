@@ -19,11 +19,13 @@ struct RunOptions {
   std::string controller;        // empty: the configuration's; of a sweep's scenario: lpv
   std::filesystem::path log;     // candump log of every frame; empty: none
   std::filesystem::path out;  // folder for candump.log, summary.json, drive.toml and report.html; empty: none
+  std::filesystem::path
+      record_qp;  // folder for the controller's quadratic problems (tools/qp_instance.hpp); empty: none
   bool json = false;
 };
 
 // Writes the summary to `out`. Returns 0 if the scenario's expectations are met, 1 if not. Throws one
-// line at bad input, before the log is opened, and if a file cannot be written.
+// line at bad input, before anything is written, and if a file cannot be.
 [[nodiscard]] int Run(const RunOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -24,17 +24,22 @@ double CostGivenTo(const testing::SparseQp& flat, const OcpQp<kNx, kNu>& qp, con
 
 template <int kNx, int kNu>
 void ExpectIpoptsOptimum(const OcpQp<kNx, kNu>& qp, int instance) {
-  OcpQpSolver<kNx, kNu> solver(qp.horizon());
-  const QpResult result = solver.Solve(qp);
-  ASSERT_EQ(result.status, SolverStatus::kSolved) << instance;
-  EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << instance;
+  OcpQpSolver<kNx, kNu> interior_point(qp.horizon(), {.max_known_rows = 0}), solver(qp.horizon());
+  const auto solve = [&](OcpQpSolver<kNx, kNu>& by) {
+    ASSERT_EQ(by.Solve(qp).status, SolverStatus::kSolved) << instance;
+    EXPECT_LT(EvaluateKkt(qp, by.solution()).Max(), 1e-6) << instance;
+  };
+  solve(interior_point);
+  solve(solver);
   const testing::SparseQp flat = testing::Flatten(qp);
   const testing::IpoptResult ipopt = testing::SolveWithIpopt(flat);
   ASSERT_TRUE(ipopt.solved) << instance;
   const double cost = EvaluateCost(qp, solver.solution());
   EXPECT_NEAR(cost, CostGivenTo(flat, qp, ipopt.x), 1e-7 * std::max(1.0, std::abs(cost))) << instance;
   for (int k = 0; k < kNu; ++k) {  // every input has a curvature of at least 0.1
-    EXPECT_NEAR(solver.solution().stages[0].u[k], ipopt.x[static_cast<std::size_t>(k)], 1e-5) << instance;
+    const double by_ipopt = ipopt.x[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(solver.solution().stages[0].u[k], by_ipopt, 1e-5) << instance;
+    EXPECT_NEAR(interior_point.solution().stages[0].u[k], by_ipopt, 1e-5) << instance;
   }
   // A guess that is the solution itself, and one of nothing.
   const OcpQpPoint<kNx, kNu> optimum = solver.solution(), nothing(qp.horizon());
@@ -79,9 +84,11 @@ void ExpectProofOfInfeasibility(Random& random, int instance, const RandomQpOpti
   OcpQp<kNx, kNu> qp = RandomQp<kNx, kNu>(random, options);
   const double beyond = std::pow(10.0, random.Uniform(-3.0, 1.0));
   testing::MakeInfeasible(random, qp, beyond);
-  OcpQpSolver<kNx, kNu> solver(qp.horizon());
-  EXPECT_EQ(solver.Solve(qp).status, SolverStatus::kInfeasible) << instance << ": beyond reach by " << beyond;
-  EXPECT_TRUE(ProvesInfeasible(qp, solver.solution())) << instance;
+  OcpQpSolver<kNx, kNu> interior_point(qp.horizon(), {.max_known_rows = 0}), solver(qp.horizon());
+  for (auto* by : {&interior_point, &solver}) {
+    EXPECT_EQ(by->Solve(qp).status, SolverStatus::kInfeasible) << instance << ": beyond reach by " << beyond;
+    EXPECT_TRUE(ProvesInfeasible(qp, by->solution())) << instance;
+  }
   EXPECT_FALSE(testing::SolveWithIpopt(testing::Flatten(qp)).solved) << instance;
 }
 

@@ -49,12 +49,21 @@ Qp ReadInstance(const std::string& name) {
   return tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name).Build();
 }
 
-TEST(OcpQpSolver, RecordedInstancesReachTheirOptimum) {
+// By the active set where it may know rows, by the interior point where it may not.
+class OcpQpSolverBy : public ::testing::TestWithParam<int> {
+ protected:
+  QpSettings settings_{.max_known_rows = GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(, OcpQpSolverBy, ::testing::Values(0, 96),
+                         [](const auto& by) { return by.param == 0 ? "InteriorPoint" : "ActiveSet"; });
+
+TEST_P(OcpQpSolverBy, RecordedInstancesReachTheirOptimum) {
   const auto optima = RecordedOptima();
   ASSERT_EQ(optima.size(), 7u);
   for (const auto& [name, optimum] : optima) {
     const Qp qp = ReadInstance(name);
-    Solver solver(qp.horizon());
+    Solver solver(qp.horizon(), settings_);
     EXPECT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << name;
     EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << name;
     // The recorded optima are themselves exact to about 1e-5 in the cost, whose absolute positions take the
@@ -65,36 +74,8 @@ TEST(OcpQpSolver, RecordedInstancesReachTheirOptimum) {
   }
 }
 
-TEST(OcpQpSolver, GuessLeadsToTheSameOptimum) {
-  for (const char* name : {"s0trN8_0044.qp", "s7trN15_0044.qp", "s7trN15_0047.qp"}) {
-    const Qp qp = ReadInstance(name);
-    Solver solver(qp.horizon());
-    const QpResult cold = solver.Solve(qp);
-    ASSERT_EQ(cold.status, SolverStatus::kSolved);
-    const Point optimum = solver.solution();
-    const QpResult warm = solver.Solve(qp, &optimum);
-    EXPECT_EQ(warm.status, SolverStatus::kSolved);
-    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6);
-    EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-6);
-  }
-  // The solution of the instance recorded three steps earlier, and one of a quite different problem.
-  for (const auto& [guess_name, name] : {std::pair{"s0trN8_0041.qp", "s0trN8_0044.qp"},
-                                         {"s7trN15_0041.qp", "s7trN15_0044.qp"},
-                                         {"s7trN15_0044.qp", "s7trN15_0047.qp"},
-                                         {"s7trN15_0011.qp", "s7trN15_0044.qp"}}) {
-    const Qp qp = ReadInstance(name), guess_qp = ReadInstance(guess_name);
-    Solver solver(qp.horizon()), guess_solver(qp.horizon());
-    ASSERT_EQ(guess_solver.Solve(guess_qp).status, SolverStatus::kSolved);
-    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
-    const Eigen::Vector2d cold = solver.solution().stages[0].u;
-    EXPECT_EQ(solver.Solve(qp, &guess_solver.solution()).status, SolverStatus::kSolved);
-    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << name;
-    EXPECT_LT((solver.solution().stages[0].u - cold).cwiseAbs().maxCoeff(), 1e-6) << name;
-  }
-}
-
 // The optimality conditions as one dense linear system in (x_1..x_N, u_0..u_{N-1}, π_1..π_N).
-TEST(OcpQpSolver, UnconstrainedProblemIsTheDenseLinearSystemsSolution) {
+TEST_P(OcpQpSolverBy, UnconstrainedProblemIsTheDenseLinearSystemsSolution) {
   testing::Random random(1);
   for (int trial = 0; trial < 20; ++trial) {
     Qp qp = testing::RandomQp<8, 2>(random, {});
@@ -152,11 +133,11 @@ OcpQp<1, 1> Scalar(double x0) {
   return qp;
 }
 
-TEST(OcpQpSolver, SoftRowWithContradictoryBoundsTakesTheSlackBetweenThem) {
+TEST_P(OcpQpSolverBy, SoftRowWithContradictoryBoundsTakesTheSlackBetweenThem) {
   for (const double rho : {0.5, 10.0, 1e4}) {
     OcpQp<1, 1> qp = Scalar(0.0);
     ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.0, -1.0, rho));  // 1 − ε ≤ x ≤ −1 + ε: ε ≥ 1 + |x|
-    OcpQpSolver<1, 1> solver(1);
+    OcpQpSolver<1, 1> solver(1, settings_);
     ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho;
     // min ½(x−1)² + ½x² + ½ρ(1+|x|)²: 2x − 1 + ρ(1 + x) = 0 if that x is positive, 0 otherwise.
     const double x = std::max(0.0, (1.0 - rho) / (2.0 + rho));
@@ -166,11 +147,11 @@ TEST(OcpQpSolver, SoftRowWithContradictoryBoundsTakesTheSlackBetweenThem) {
   }
 }
 
-TEST(OcpQpSolver, SoftRowGivesWayByItsWeight) {
+TEST_P(OcpQpSolverBy, SoftRowGivesWayByItsWeight) {
   for (const double rho : {0.0, 0.1, 1.0, 1e3, 1e6}) {
     OcpQp<1, 1> qp = Scalar(0.0);
     ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, 0.2, rho));
-    OcpQpSolver<1, 1> solver(1);
+    OcpQpSolver<1, 1> solver(1, settings_);
     ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho;
     EXPECT_NEAR(solver.solution().stages[1].x[0], (1.0 + 0.2 * rho) / (2.0 + rho), 1e-7) << rho;
   }
@@ -178,12 +159,12 @@ TEST(OcpQpSolver, SoftRowGivesWayByItsWeight) {
 
 // Of x ≤ hi the multiplier is 1 − 2x: 0.6 where x = 0.2 is held. What σ does not pay for, x gives way:
 // min ½(x−1)² + ½x² + ½ρ(x−hi)² + σ(x−hi).
-TEST(OcpQpSolver, ExactPenaltyHoldsARowWhoseMultiplierIsBelowIt) {
+TEST_P(OcpQpSolverBy, ExactPenaltyHoldsARowWhoseMultiplierIsBelowIt) {
   for (const double rho : {0.0, 1e-3, 1.0, 1e3}) {
     for (const double sigma : {1e-3, 0.1, 0.5, 0.59, 0.61, 1.0, 10.0, 1e4}) {
       OcpQp<1, 1> qp = Scalar(0.0);
       ASSERT_TRUE(qp.stages[1].AddStateBound(0, -kNoBound, 0.2, rho, sigma));
-      OcpQpSolver<1, 1> solver(1);
+      OcpQpSolver<1, 1> solver(1, settings_);
       ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho << " " << sigma;
       const double x = std::max(0.2, (1.0 + 0.2 * rho - sigma) / (2.0 + rho));
       EXPECT_NEAR(solver.solution().stages[1].x[0], x, 1e-7) << rho << " " << sigma;
@@ -195,8 +176,8 @@ TEST(OcpQpSolver, ExactPenaltyHoldsARowWhoseMultiplierIsBelowIt) {
 }
 
 // Among these are problems in which the predictor and corrector alone go round in a cycle of three steps.
-TEST(OcpQpSolver, ExactPenaltyOfAnySizeIsSolvedFromFarAndNear) {
-  OcpQpSolver<1, 1> solver(1);
+TEST_P(OcpQpSolverBy, ExactPenaltyOfAnySizeIsSolvedFromFarAndNear) {
+  OcpQpSolver<1, 1> solver(1, settings_);
   for (const double rho : {0.0, 1e-3, 1.0, 1e3}) {
     for (const double hi : {0.49, -3.0, -100.0}) {
       for (double sigma = 1e-3; sigma < 1e5; sigma *= 1.3) {
@@ -212,7 +193,7 @@ TEST(OcpQpSolver, ExactPenaltyOfAnySizeIsSolvedFromFarAndNear) {
   }
 }
 
-TEST(OcpQpSolver, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
+TEST_P(OcpQpSolverBy, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
   testing::Random random(8);
   int active = 0;
   for (int i = 0; i < 100; ++i) {
@@ -222,7 +203,7 @@ TEST(OcpQpSolver, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
                                       [](const auto& row) { return row.soft(); });
       stage.row_count = static_cast<int>(end - stage.rows.begin());
     }
-    Solver hard(qp.horizon()), exact(qp.horizon());
+    Solver hard(qp.horizon(), settings_), exact(qp.horizon(), settings_);
     ASSERT_EQ(hard.Solve(qp).status, SolverStatus::kSolved) << i;
     Qp soft = qp;
     for (std::size_t k = 0; k < qp.stages.size(); ++k) {
@@ -247,14 +228,14 @@ TEST(OcpQpSolver, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
 }
 
 // x = u reaches 1 at most: 1.5 ≤ x is violated by a half whatever it costs, −0.7 is not.
-TEST(OcpQpSolver, ExactPenaltyOfARowThatCannotHoldLeavesTheLeastSlack) {
+TEST_P(OcpQpSolverBy, ExactPenaltyOfARowThatCannotHoldLeavesTheLeastSlack) {
   for (const double rho : {0.0, 1.0}) {
     for (const double sigma : {10.0, 1e3, 1e5}) {
       OcpQp<1, 1> qp = Scalar(0.0);
       ASSERT_TRUE(qp.stages[0].AddInputBound(0, -1.0, 1.0));
       ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.5, kNoBound, rho, sigma));
       ASSERT_TRUE(qp.stages[1].AddStateBound(0, -0.7, kNoBound, rho, sigma));
-      OcpQpSolver<1, 1> solver(1);
+      OcpQpSolver<1, 1> solver(1, settings_);
       ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << rho << " " << sigma;
       const auto& at = solver.solution().stages[1];
       EXPECT_NEAR(at.slack[0], 0.5, 1e-7) << rho << " " << sigma;
@@ -264,10 +245,10 @@ TEST(OcpQpSolver, ExactPenaltyOfARowThatCannotHoldLeavesTheLeastSlack) {
   }
 }
 
-TEST(OcpQpSolver, OptimumInsideExactRowsTakesNoIteration) {
+TEST_P(OcpQpSolverBy, OptimumInsideExactRowsTakesNoIteration) {
   OcpQp<1, 1> qp = Scalar(0.0);
   ASSERT_TRUE(qp.stages[1].AddStateBound(0, 0.4, 0.6, 1.0, 5.0));
-  OcpQpSolver<1, 1> solver(1);
+  OcpQpSolver<1, 1> solver(1, settings_);
   const QpResult result = solver.Solve(qp);
   EXPECT_EQ(result.status, SolverStatus::kSolved);
   EXPECT_EQ(result.iterations, 0);
@@ -275,12 +256,40 @@ TEST(OcpQpSolver, OptimumInsideExactRowsTakesNoIteration) {
   EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-12);
 }
 
-TEST(OcpQpSolver, GuessLeadsToTheSameOptimumOfExactPenaltiesInFewerIterations) {
+TEST_P(OcpQpSolverBy, GuessLeadsToTheSameOptimum) {
+  for (const char* name : {"s0trN8_0044.qp", "s7trN15_0044.qp", "s7trN15_0047.qp"}) {
+    const Qp qp = ReadInstance(name);
+    Solver solver(qp.horizon(), settings_);
+    const QpResult cold = solver.Solve(qp);
+    ASSERT_EQ(cold.status, SolverStatus::kSolved);
+    const Point optimum = solver.solution();
+    const QpResult warm = solver.Solve(qp, &optimum);
+    EXPECT_EQ(warm.status, SolverStatus::kSolved);
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6);
+    EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-6);
+  }
+  // The solution of the instance recorded three steps earlier, and one of a quite different problem.
+  for (const auto& [guess_name, name] : {std::pair{"s0trN8_0041.qp", "s0trN8_0044.qp"},
+                                         {"s7trN15_0041.qp", "s7trN15_0044.qp"},
+                                         {"s7trN15_0044.qp", "s7trN15_0047.qp"},
+                                         {"s7trN15_0011.qp", "s7trN15_0044.qp"}}) {
+    const Qp qp = ReadInstance(name), guess_qp = ReadInstance(guess_name);
+    Solver solver(qp.horizon(), settings_), guess_solver(qp.horizon());
+    ASSERT_EQ(guess_solver.Solve(guess_qp).status, SolverStatus::kSolved);
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
+    const Eigen::Vector2d cold = solver.solution().stages[0].u;
+    EXPECT_EQ(solver.Solve(qp, &guess_solver.solution()).status, SolverStatus::kSolved);
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << name;
+    EXPECT_LT((solver.solution().stages[0].u - cold).cwiseAbs().maxCoeff(), 1e-6) << name;
+  }
+}
+
+TEST_P(OcpQpSolverBy, GuessLeadsToTheSameOptimumOfExactPenaltiesInFewerIterations) {
   testing::Random random(9);
   int cold = 0, warm = 0;
   for (int i = 0; i < 60; ++i) {
     const Qp qp = testing::RandomQp<8, 2>(random, {.exact = 1.0});
-    Solver solver(qp.horizon());
+    Solver solver(qp.horizon(), settings_);
     const QpResult from_nothing = solver.Solve(qp);
     ASSERT_EQ(from_nothing.status, SolverStatus::kSolved) << i;
     cold += from_nothing.iterations;
@@ -298,11 +307,11 @@ TEST(OcpQpSolver, GuessLeadsToTheSameOptimumOfExactPenaltiesInFewerIterations) {
     ASSERT_EQ(solver.Solve(qp, &beside).status, SolverStatus::kSolved) << i;
     EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-5) << i;
   }
-  EXPECT_LT(warm, cold / 2);
+  EXPECT_LT(warm, GetParam() == 0 ? cold / 2 : cold);
 }
 
-TEST(OcpQpSolver, OneSidedRowHoldsOnItsSideAlone) {
-  OcpQpSolver<1, 1> solver(1);
+TEST_P(OcpQpSolverBy, OneSidedRowHoldsOnItsSideAlone) {
+  OcpQpSolver<1, 1> solver(1, settings_);
   OcpQp<1, 1> qp = Scalar(0.0);
   ASSERT_TRUE(qp.stages[1].AddStateBound(0, 0.7, kNoBound));
   ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
@@ -316,8 +325,23 @@ TEST(OcpQpSolver, OneSidedRowHoldsOnItsSideAlone) {
   EXPECT_NEAR(solver.solution().stages[1].x[0], -3.0, 1e-7);
 }
 
-TEST(OcpQpSolver, EqualBoundsAreAnEquation) {
-  OcpQpSolver<1, 1> solver(1);
+TEST_P(OcpQpSolverBy, RowThatCostsNothingChangesNothingAndHasTheSlackItNeeds) {
+  testing::Random random(10);
+  for (int i = 0; i < 50; ++i) {
+    Qp qp = testing::RandomQp<8, 2>(random, {});
+    Solver solver(qp.horizon(), settings_);
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << i;
+    const Point optimum = solver.solution();
+    auto& stage = qp.stages[static_cast<std::size_t>(random.Integer(1, qp.horizon()))];
+    ASSERT_TRUE(stage.AddStateBound(0, random.Uniform(-3.0, 3.0), kNoBound, 0.0));
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << i;
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).Max(), 1e-6) << i;
+    EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-5) << i;
+  }
+}
+
+TEST_P(OcpQpSolverBy, EqualBoundsAreAnEquation) {
+  OcpQpSolver<1, 1> solver(1, settings_);
   for (const double value : {-2.0, 0.3, 0.5, 40.0}) {
     OcpQp<1, 1> qp = Scalar(0.0);
     ASSERT_TRUE(qp.stages[0].AddRow(Eigen::Matrix<double, 1, 1>(0.5), Eigen::Matrix<double, 1, 1>(2.0),
@@ -328,8 +352,8 @@ TEST(OcpQpSolver, EqualBoundsAreAnEquation) {
   }
 }
 
-TEST(OcpQpSolver, ContradictionIsProven) {
-  OcpQpSolver<1, 1> solver(1);
+TEST_P(OcpQpSolverBy, ContradictionIsProven) {
+  OcpQpSolver<1, 1> solver(1, settings_);
   const auto expect_proof = [&](const OcpQp<1, 1>& qp, const char* what) {
     EXPECT_EQ(solver.Solve(qp).status, SolverStatus::kInfeasible) << what;
     EXPECT_TRUE(ProvesInfeasible(qp, solver.solution())) << what;
@@ -360,8 +384,8 @@ TEST(OcpQpSolver, ContradictionIsProven) {
   expect_proof(qp, "out of the input's reach, beside an exact penalty");
 }
 
-TEST(OcpQpSolver, ContradictionBetweenUnboundedInputsIsNeverSolved) {
-  OcpQpSolver<1, 1> solver(1);
+TEST_P(OcpQpSolverBy, ContradictionBetweenUnboundedInputsIsNeverSolved) {
+  OcpQpSolver<1, 1> solver(1, settings_);
   for (const double gap : {1e-6, 1e-3, 1.0, 100.0}) {
     OcpQp<1, 1> qp = Scalar(0.0);
     ASSERT_TRUE(qp.stages[1].AddStateBound(0, 1.0, kNoBound));
@@ -373,16 +397,16 @@ TEST(OcpQpSolver, ContradictionBetweenUnboundedInputsIsNeverSolved) {
 
 TEST(OcpQpSolver, FirstIterationIsNotTheLastIfOnlyOneIsAllowed) {
   const Qp qp = ReadInstance("s7trN15_0041.qp");
-  Solver solver(qp.horizon(), {.max_iterations = 1});
+  Solver solver(qp.horizon(), {.max_iterations = 1, .max_known_rows = 0});
   const QpResult result = solver.Solve(qp);
   EXPECT_EQ(result.status, SolverStatus::kIterationLimit);
   EXPECT_EQ(result.iterations, 1);
   EXPECT_GT(result.kkt_residual, 1e-8);
 }
 
-TEST(OcpQpSolver, SolvesAgainAfterAFailure) {
+TEST_P(OcpQpSolverBy, SolvesAgainAfterAFailure) {
   const Qp qp = ReadInstance("s0trN8_0041.qp");
-  Solver solver(qp.horizon());
+  Solver solver(qp.horizon(), settings_);
   ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved);
   const Eigen::Vector2d u = solver.solution().stages[0].u;
   Qp broken = qp;
@@ -392,7 +416,7 @@ TEST(OcpQpSolver, SolvesAgainAfterAFailure) {
   EXPECT_EQ(solver.solution().stages[0].u, u);
 }
 
-TEST(OcpQpSolver, CostWithoutCurvatureInAnInputIsAFailure) {
+TEST_P(OcpQpSolverBy, CostWithoutCurvatureInAnInputIsAFailure) {
   OcpQp<1, 1> qp = Scalar(0.0);
   qp.stages[0].R[0] = 0.0;
   qp.stages[0].B(0, 0) = 0.0;
@@ -400,10 +424,10 @@ TEST(OcpQpSolver, CostWithoutCurvatureInAnInputIsAFailure) {
 }
 
 // Each number of the problem in turn, in a problem with active rows and in one without.
-TEST(OcpQpSolver, AnyNumberThatIsNotFiniteIsAFailure) {
+TEST_P(OcpQpSolverBy, AnyNumberThatIsNotFiniteIsAFailure) {
   for (const char* name : {"s0trN8_0044.qp", "s0trN8_0005.qp"}) {
     Qp qp = ReadInstance(name);
-    Solver solver(qp.horizon());
+    Solver solver(qp.horizon(), settings_);
     const auto expect_failure = [&](double& number, double bad, const char* what, std::size_t stage) {
       const double good = number;
       number = bad;

@@ -221,6 +221,26 @@ TEST(Lpvmpc, BenchQpSolvesRecordedProblemsColdAndWarm) {
   }
 }
 
+TEST(Lpvmpc, RecordedProblemsOfARunAreSolvedByBenchQp) {
+  const test_support::TempDir folder;
+  const std::string problems = (folder.path() / "qp").string();
+  std::vector<std::string> run = {LPVMPC, "run", "--sweep-seed", "1001", "--record-qp", problems, "--json"};
+  const test_support::Outcome drive = test_support::Run(run);
+  ASSERT_EQ(drive.status, 0) << drive.err;
+  const test_support::Outcome bench =
+      test_support::Run({LPVMPC, "bench", "qp", problems, "--repeat", "1", "--json"});
+  ASSERT_EQ(bench.status, 0) << bench.err;
+  const nlohmann::json cold = nlohmann::json::parse(bench.out).at(0);
+  EXPECT_GE(cold["instances"], nlohmann::json::parse(drive.out)["steps"]);
+  EXPECT_EQ(cold["solved"], cold["instances"]);
+  // Another run's are not mixed with them, and a controller without any is told.
+  ExpectOneLine(run, HasSubstr(problems + " holds problems of another run"));
+  run.insert(run.end() - 1, {"--controller", "nmpc"});
+  run[5] = problems + "2";
+  ExpectOneLine(run, HasSubstr("nmpc-affine solves no quadratic problem"));
+  EXPECT_FALSE(std::filesystem::exists(run[5]));
+}
+
 TEST(Lpvmpc, BenchQpNamesTheFileAndTheLineThatIsWrong) {
   const test_support::TempDir folder;
   const std::string dir = folder.path().string();

@@ -1,0 +1,100 @@
+// The dual of a quadratic program in a few of its rows, solved exactly by an active set:
+//
+//   min over λ   ½ λᵀM λ − g_0ᵀλ + Σ_j ψ_j(λ_j)
+//
+// g_0 holds the rows' values at λ = 0, g = g_0 − M λ those at λ; M = G H⁻¹ Gᵀ with the rows G and the primal's
+// Hessian H. λ_j has a sign: positive where the row presses on hi, negative on lo. ψ_j is the convex conjugate
+// of the row's penalty: λ hi (λ lo where λ < 0), and for |λ| beyond σ (soft rows) (|λ| − σ)² / (2ρ) more; a
+// hard row is one with σ = ∞. So softened rows need no variable of their own: they add 1/ρ to M's diagonal
+// where they give way. Optimal is
+//   λ = 0: lo ≤ g ≤ hi;   0 < λ < σ: g = hi;   λ ≥ σ: g = hi + (λ − σ) / ρ;   and the like on lo.
+//
+// λ moves through pieces on which ψ is quadratic. On the rows that are free to move the factor
+// L Lᵀ = M + diag(1/ρ) is kept and changed a row at a time; every step lowers the cost, until a λ meets the end
+// of its piece. A row without curvature left gives a ray: if nothing stops it, no point satisfies the rows, and
+// the ray's λ are the proof.
+//
+// Source: D. Goldfarb, A. Idnani, A numerically stable dual method for solving strictly convex quadratic
+// programs (1983); here with bounds and pieces in the dual, and with rows whose M is already known.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace control {
+
+class DualActiveSet {
+ public:
+  enum class Result : std::uint8_t {
+    kSolved,
+    kInfeasible,  // ray() proves it
+    kStuck,       // too many changes of the set: round-off
+  };
+
+  explicit DualActiveSet(int capacity);
+
+  void Clear() { size_ = free_count_ = 0; }
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] bool full() const { return size_ == capacity_; }
+
+  // Another row with λ = 0, and its index. `value` is its entry of g_0; its entries of M are to be given by
+  // SetM before anything else is asked. ρ < 0: hard.
+  int Add(double lo, double hi, double rho, double sigma, double value);
+  void SetM(int i, int j, double value) { M_(i, j) = M_(j, i) = value; }
+  // Rows violated by no more than the tolerance count as satisfied.
+  Result Solve(double tolerance);
+
+  [[nodiscard]] double lambda(int j) const { return lambda_[j]; }
+  // g as M has it; Correct replaces it by a better figure, for the next Solve.
+  void Correct(int j, double value);
+  [[nodiscard]] double ray(int j) const { return rows_[At(j)].direction; }
+  [[nodiscard]] int changes() const { return changes_; }
+
+ private:
+  enum class Piece : std::uint8_t {
+    kRest,     // λ stays at 0 or at ±σ
+    kHold,     // |λ| in [0, σ]
+    kGiveWay,  // |λ| in [σ, ∞)
+  };
+  struct Row {
+    double lo, hi, rho, sigma;  // sigma = ∞: hard
+    double direction = 0.0, residual = 0.0;
+    double side = 1.0;  // 1: at hi, −1: at lo
+    Piece piece = Piece::kRest;
+    int place = -1;  // among the free rows; −1: not free
+
+    [[nodiscard]] double Bound() const { return side > 0.0 ? hi : lo; }
+    [[nodiscard]] double Compliance() const { return piece == Piece::kGiveWay ? 1.0 / rho : 0.0; }
+  };
+  struct Step {
+    double length;
+    int blocking;  // the row that met the end of its piece; −1: none
+  };
+  using Vector = Eigen::VectorXd;
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  [[nodiscard]] static std::size_t At(int j) { return static_cast<std::size_t>(j); }
+  [[nodiscard]] double Residual(int j) const;
+  [[nodiscard]] double Violation(int j) const;
+  void ComputeValue(int j);
+  void ComputeResiduals();
+  [[nodiscard]] bool Append(int j);
+  void Remove(int j);
+  void SolveTransposed();
+  [[nodiscard]] Result Free(int j);
+  [[nodiscard]] bool Settle();
+  Step Advance(double limit, int joining);
+  void MeetEnd(int j);
+
+  int capacity_, size_ = 0, free_count_ = 0, changes_ = 0;
+  std::vector<Row> rows_;
+  std::vector<int> free_;  // the free rows, in the order of L's
+  Vector g_0_, g_, lambda_;
+  Matrix M_, L_;
+  Vector inverse_diagonal_;  // of L
+  Vector y_;                 // over the free rows
+};
+
+}  // namespace control
