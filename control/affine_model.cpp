@@ -14,8 +14,11 @@ constexpr std::array<double, 4> kB{1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
 State DiscreteModel::Step(const State& z, const Input& u) const {
   State k = State::Zero();
   State next = z;
+  Angles angles(z, u);
   for (std::size_t j = 0; j < kA.size(); ++j) {
-    k = model_.Derivative(z + kA[j] * t_s_ * k, u);
+    const State stage = z + kA[j] * t_s_ * k;
+    if (j > 0) angles.Turn(stage);
+    k = model_.Derivative(stage, u, angles);
     next += kB[j] * t_s_ * k;
   }
   return next;
@@ -28,12 +31,14 @@ AffineModel DiscreteModel::Expand(const State& z, const Input& u) const {
   Square dk_dz = Square::Zero();
   Tall dk_du = Tall::Zero();
   State next = z;
+  Angles angles(z, u);
   AffineModel model{.linear = {.A = Square::Identity(), .B = Tall::Zero()}, .c = State::Zero()};
   for (std::size_t j = 0; j < kA.size(); ++j) {
     const double h = kA[j] * t_s_;
     const State stage = z + h * k;
-    const LinearModel d = model_.Jacobian(stage, u);
-    k = model_.Derivative(stage, u);
+    if (j > 0) angles.Turn(stage);
+    const auto [f, d] = model_.Linearise(stage, u, angles);
+    k = f;
     dk_du = d.B + h * d.A * dk_du;
     dk_dz = d.A + h * d.A * dk_dz;
     next += kB[j] * t_s_ * k;

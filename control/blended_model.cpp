@@ -29,29 +29,34 @@ Weight WeightAt(double upsilon) {
 BlendedModel::BlendedModel(const VehicleParameters& parameters)
     : dynamic_(parameters), wheelbase_(parameters.l_f + parameters.l_r), l_r_(parameters.l_r) {}
 
-State BlendedModel::Derivative(const State& z, const Input& u) const {
+State BlendedModel::Derivative(const State& z, const Input& u, const Angles& angles) const {
+  return Blend(z, angles, dynamic_.Derivative(FastEnough(z), u, angles), WeightAt(z[kUpsilon]).w);
+}
+
+// With the dynamic model's derivatives at the state that is fast enough for it.
+State BlendedModel::Blend(const State& z, const Angles& angles, const State& dynamic, double w) const {
   const double upsilon = z[kUpsilon], nu = z[kNu];
-  const double w = WeightAt(upsilon).w;
-  const double omega_rolling = upsilon * std::tan(u[kDelta]) / wheelbase_;
-  State f = dynamic_.Derivative(FastEnough(z), u);
-  f[kX] = upsilon * std::cos(z[kPsi]) - nu * std::sin(z[kPsi]);
-  f[kY] = upsilon * std::sin(z[kPsi]) + nu * std::cos(z[kPsi]);
+  const double omega_rolling = upsilon * angles.sin_delta / (angles.cos_delta * wheelbase_);
+  State f = dynamic;
+  f[kX] = upsilon * angles.cos_psi - nu * angles.sin_psi;
+  f[kY] = upsilon * angles.sin_psi + nu * angles.cos_psi;
   f[kNu] = w * f[kNu] + (1.0 - w) * (l_r_ * omega_rolling - nu) / kTau;
   f[kOmega] = w * f[kOmega] + (1.0 - w) * (omega_rolling - z[kOmega]) / kTau;
   return f;
 }
 
-LinearModel BlendedModel::Jacobian(const State& z, const Input& u) const {
+BlendedModel::Linearisation BlendedModel::Linearise(const State& z, const Input& u,
+                                                    const Angles& angles) const {
   const double upsilon = z[kUpsilon], nu = z[kNu];
   const Weight weight = WeightAt(upsilon);
   const State fast = FastEnough(z);
-  const State f = dynamic_.Derivative(fast, u);
-  const double tan_delta = std::tan(u[kDelta]);
+  const State f = dynamic_.Derivative(fast, u, angles);
+  const double tan_delta = angles.sin_delta / angles.cos_delta;
   const double omega_rolling = upsilon * tan_delta / wheelbase_;
 
-  LinearModel d = dynamic_.Jacobian(fast, u);
-  d.A(kX, kPsi) = -upsilon * std::sin(z[kPsi]) - nu * std::cos(z[kPsi]);
-  d.A(kY, kPsi) = upsilon * std::cos(z[kPsi]) - nu * std::sin(z[kPsi]);
+  LinearModel d = dynamic_.Jacobian(fast, u, angles);
+  d.A(kX, kPsi) = -upsilon * angles.sin_psi - nu * angles.cos_psi;
+  d.A(kY, kPsi) = upsilon * angles.cos_psi - nu * angles.sin_psi;
   const auto blend = [&](int row, double arm) {
     const double kinematic = (arm * omega_rolling - z[row]) / kTau;
     const double slow = (1.0 - weight.w) / kTau;
@@ -63,7 +68,7 @@ LinearModel BlendedModel::Jacobian(const State& z, const Input& u) const {
   };
   blend(kNu, l_r_);
   blend(kOmega, 1.0);
-  return d;
+  return {.f = Blend(z, angles, f, weight.w), .jacobian = d};
 }
 
 }  // namespace control

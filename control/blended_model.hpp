@@ -22,11 +22,22 @@ class BlendedModel {
 
   explicit BlendedModel(const VehicleParameters& parameters);
 
-  [[nodiscard]] State Derivative(const State& z, const Input& u) const;
+  [[nodiscard]] State Derivative(const State& z, const Input& u) const { return Derivative(z, u, {z, u}); }
+  [[nodiscard]] State Derivative(const State& z, const Input& u, const Angles& angles) const;
   // ∂f/∂z and ∂f/∂u.
-  [[nodiscard]] LinearModel Jacobian(const State& z, const Input& u) const;
+  [[nodiscard]] LinearModel Jacobian(const State& z, const Input& u) const {
+    return Linearise(z, u, {z, u}).jacobian;
+  }
+
+  struct Linearisation {
+    State f;
+    LinearModel jacobian;
+  };
+  [[nodiscard]] Linearisation Linearise(const State& z, const Input& u, const Angles& angles) const;
 
  private:
+  [[nodiscard]] State Blend(const State& z, const Angles& angles, const State& dynamic, double w) const;
+
   VehicleModel dynamic_;
   double wheelbase_, l_r_;
 };

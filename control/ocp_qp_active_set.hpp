@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "control/ocp_qp_impl.hpp"
 #include "control/ocp_qp_rows.hpp"
 #include "control/ocp_qp_solver.hpp"
 
@@ -21,6 +22,7 @@ template <int kNx, int kNu>
 std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp, const Point* guess,
                                                                     QpResult& result) {
   constexpr int kMaxCorrections = 3;
+  CloseLoop(qp);
   dual_.Clear();
   known_.clear();
   for (auto& work : work_) {
@@ -41,8 +43,8 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
     MoveToMultipliers(qp);
     violated = FindViolated(qp, guess);
     if (violated) continue;
-    result.kkt_residual = std::max(StationarityError(qp), row_error_);
-    if (result.kkt_residual <= settings_.tolerance) {
+    result.kkt_residual = std::max({base_error_, StationarityError(qp), row_error_});
+    if (result.kkt_residual <= tolerance_) {
       WriteActiveSet(qp);
       return SolverStatus::kSolved;
     }
@@ -176,22 +178,16 @@ double OcpQpSolver<kNx, kNu>::StationarityError(const Qp& qp) {
     auto& work = work_[place.stage];
     detail::AddRowGradient(qp.stages[place.stage].rows[place.row], dual_.lambda(a), work.r_x, work.r_u);
   }
-  VectorX largest_x = work_[N].r_x.cwiseAbs();
-  VectorU largest_u = VectorU::Zero();
-  double zero = detail::ZeroIfFinite(work_[N].r_x);
+  detail::LargestEntry<kNx> error_x;
+  detail::LargestEntry<kNu> error_u;
   for (std::size_t i = 0; i < N; ++i) {
     const auto& work = work_[i];
-    const auto& stage = qp.stages[i];
     const VectorX& pi_next = work_[i + 1].pi;
-    const VectorU r_u = work.r_u + detail::Product(stage.B.transpose(), pi_next);
-    largest_u = largest_u.cwiseMax(r_u.cwiseAbs());
-    zero += detail::ZeroIfFinite(r_u);
-    if (i == 0) continue;  // x_0 is given: its gradient is free
-    const VectorX r_x = work.r_x + detail::Product(stage.A.transpose(), pi_next);
-    largest_x = largest_x.cwiseMax(r_x.cwiseAbs());
-    zero += detail::ZeroIfFinite(r_x);
+    error_u.Add(work.r_u + detail::Product(qp.stages[i].B.transpose(), pi_next));
+    if (i > 0) error_x.Add(work.r_x + detail::Product(qp.stages[i].A.transpose(), pi_next));
   }
-  return zero == 0.0 ? std::max(largest_x.maxCoeff(), largest_u.maxCoeff()) : kNoBound;
+  error_x.Add(work_[N].r_x);
+  return std::max(error_x.Value(), error_u.Value());
 }
 
 template <int kNx, int kNu>

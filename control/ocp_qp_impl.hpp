@@ -43,14 +43,37 @@ bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
   return true;
 }
 
+namespace detail {
+
+// The largest absolute value among vectors, kNoBound if one of them holds a value that is not a number.
+template <int kSize>
+class LargestEntry {
+ public:
+  template <typename Vector>
+  void Add(const Vector& vector) {
+    const Eigen::Matrix<double, kSize, 1> value = vector;
+    largest_ = largest_.cwiseMax(value.cwiseAbs());
+    zero_ += 0.0 * value;
+  }
+  [[nodiscard]] double Value() const { return zero_.sum() == 0.0 ? largest_.maxCoeff() : kNoBound; }
+
+ private:
+  Eigen::Matrix<double, kSize, 1> largest_ = Eigen::Matrix<double, kSize, 1>::Zero();
+  Eigen::Matrix<double, kSize, 1> zero_ = Eigen::Matrix<double, kSize, 1>::Zero();
+};
+
+}  // namespace detail
+
 template <int kNx, int kNu>
 KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
   KktResidual residual;
+  detail::LargestEntry<kNx> stationarity_x, dynamics;
+  detail::LargestEntry<kNu> stationarity_u;
   const auto raise = [](double& largest, double value) {
     if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
   };
   const int N = qp.horizon();
-  raise(residual.dynamics, (point.stages[0].x - qp.x0).cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
+  dynamics.Add(point.stages[0].x - qp.x0);
   for (int i = 0; i <= N; ++i) {
     const auto& stage = qp.stages[static_cast<std::size_t>(i)];
     const auto& at = point.stages[static_cast<std::size_t>(i)];
@@ -61,15 +84,15 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
       const auto& next = point.stages[static_cast<std::size_t>(i) + 1];
       gradient_x += stage.A.transpose() * next.pi;
       gradient_u = stage.R.cwiseProduct(at.u) + stage.r + stage.B.transpose() * next.pi;
-      raise(residual.dynamics, (stage.A * at.x + stage.B * at.u + stage.c - next.x)
-                                   .cwiseAbs()
-                                   .template maxCoeff<Eigen::PropagateNaN>());
+      dynamics.Add(stage.A * at.x + stage.B * at.u + stage.c - next.x);
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
       const RowMultiplier& lambda = at.lambda[j];
       const double epsilon = row.soft() ? at.slack[j] : 0.0;
       const double value = row.C.dot(at.x) + (terminal ? 0.0 : row.D.dot(at.u));
+      raise(residual.rows, std::min(0.0, std::min(value - row.lo, row.hi - value) + epsilon));
+      if (lambda.lo == 0.0 && lambda.hi == 0.0 && epsilon == 0.0) continue;
       gradient_x -= row.C * (lambda.lo - lambda.hi);
       gradient_u -= row.D * (lambda.lo - lambda.hi);
       if (row.exact()) {
@@ -80,27 +103,21 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
       } else if (row.soft()) {
         raise(residual.stationarity, row.rho * epsilon - lambda.lo - lambda.hi);
       }
+      const auto side = [&](bool present, double multiplier, double distance) {
+        if (present)
+          raise(residual.complementarity, multiplier * (distance + epsilon));
+        else
+          raise(residual.multipliers, multiplier);
+      };
       raise(residual.multipliers, std::min({0.0, lambda.lo, lambda.hi}));
-      if (row.has_lo()) {
-        const double distance = value + epsilon - row.lo;
-        raise(residual.rows, std::min(0.0, distance));
-        raise(residual.complementarity, lambda.lo * distance);
-      } else {
-        raise(residual.multipliers, lambda.lo);
-      }
-      if (row.has_hi()) {
-        const double distance = row.hi + epsilon - value;
-        raise(residual.rows, std::min(0.0, distance));
-        raise(residual.complementarity, lambda.hi * distance);
-      } else {
-        raise(residual.multipliers, lambda.hi);
-      }
+      side(row.has_lo(), lambda.lo, value - row.lo);
+      side(row.has_hi(), lambda.hi, row.hi - value);
     }
-    // x_0 is given: its gradient is free.
-    if (i > 0) raise(residual.stationarity, gradient_x.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
-    if (!terminal)
-      raise(residual.stationarity, gradient_u.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
+    if (i > 0) stationarity_x.Add(gradient_x);  // x_0 is given: its gradient is free
+    if (!terminal) stationarity_u.Add(gradient_u);
   }
+  residual.dynamics = dynamics.Value();
+  residual.stationarity = std::max({residual.stationarity, stationarity_x.Value(), stationarity_u.Value()});
   return residual;
 }
 

@@ -9,12 +9,6 @@ namespace control {
 
 namespace detail {
 
-// 0 if every entry is finite, not a number otherwise.
-template <typename Matrix>
-double ZeroIfFinite(const Matrix& matrix) {
-  return (0.0 * matrix).sum();
-}
-
 // Calls visit(row, its stage, its index there) for every row.
 template <typename Qp, typename Visit>
 void ForEachRow(const Qp& qp, Visit&& visit) {

@@ -27,7 +27,9 @@
 namespace control {
 
 struct QpSettings {
-  double tolerance = 1e-8;  // largest KKT residual of a solved problem, absolute, in the problem's units
+  // Largest KKT residual of a solved problem, absolute, in the problem's units; 1e-12 of the largest multiplier π of the
+  // problem without rows comes on top, for round-off.
+  double tolerance = 1e-8;
   int max_iterations = 60;  // of the interior point
   int max_known_rows = 96;  // that the active set may look at; 0: the interior point alone
 };
@@ -65,6 +67,7 @@ class OcpQpSolver {
  private:
   static constexpr double kDualRegularisation = 1e-10;  // δ
 
+  static constexpr double kRoundOff = 1e-12;
   static constexpr int kBatch = 4;
 
   using VectorX = Eigen::Matrix<double, kNx, 1>;
@@ -112,9 +115,14 @@ class OcpQpSolver {
   };
 
   bool SolveBase(const Qp& qp);
+  bool FactoriseBase(const Qp& qp);
+  bool FactoriseBaseSafely(const Qp& qp);
+  void FollowBase(const Qp& qp);
+  [[nodiscard]] double BaseError(const Qp& qp) const;
+  void CloseLoop(const Qp& qp);
   bool ShiftRows(const Qp& qp);
   std::optional<SolverStatus> SolveByActiveSet(const Qp& qp, const Point* guess, QpResult& result);
-  [[nodiscard]] double RowTolerance() const { return 0.1 * settings_.tolerance; }
+  [[nodiscard]] double RowTolerance() const { return 0.1 * tolerance_; }
   [[nodiscard]] static double SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation);
   bool FindViolated(const Qp& qp, const Point* guess);
   bool AddRows(const Qp& qp);
@@ -153,6 +161,8 @@ class OcpQpSolver {
   std::vector<RowPlace> candidates_;  // to be added to them
   double row_error_ = 0.0;  // largest error of a row's condition of optimality at x, u and the dual's λ
   bool has_weightless_rows_ = false;
+  double tolerance_ = 0.0;                         // with what round-off needs
+  double base_error_ = 0.0;                        // largest entry of the gradient at the base
   double mu_ = 0.0;                                // mean complementarity
   double longest_ = 0.0;                           // the step of this length brings the first t or λ to zero
   double first_order_ = 0.0, second_order_ = 0.0;  // of the sum of all λ t, in the step's length

@@ -27,21 +27,32 @@ namespace detail {
 // like a hard row's.
 template <int kNx, int kNu>
 bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
-  double zero = ZeroIfFinite(qp.x0);
+  // Sums of zero times each number: zero, or not a number. Several, so that one need not wait for the other.
+  Eigen::Matrix<double, kNx, 1> zero_x = 0.0 * qp.x0, zero_a = Eigen::Matrix<double, kNx, 1>::Zero();
+  Eigen::Matrix<double, kNu, 1> zero_u = Eigen::Matrix<double, kNu, 1>::Zero();
+  double zero = 0.0;
+  bool ordered = true;
   for (std::size_t i = 0; i < qp.stages.size(); ++i) {
     const auto& stage = qp.stages[i];
-    zero += ZeroIfFinite(stage.Q) + ZeroIfFinite(stage.q);
+    zero_x += 0.0 * stage.Q + 0.0 * stage.q;
     if (i + 1 < qp.stages.size()) {
-      zero += ZeroIfFinite(stage.A) + ZeroIfFinite(stage.B) + ZeroIfFinite(stage.c) + ZeroIfFinite(stage.R) +
-              ZeroIfFinite(stage.r);
+      for (int k = 0; k < kNx; k += 2) {
+        zero_a += 0.0 * stage.A.col(k);
+        if (k + 1 < kNx) zero_x += 0.0 * stage.A.col(k + 1);
+      }
+      for (int k = 0; k < kNu; ++k) zero_a += 0.0 * stage.B.col(k);
+      zero_x += 0.0 * stage.c;
+      zero_u += 0.0 * stage.R + 0.0 * stage.r;
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
-      if (!(row.lo < kNoBound) || !(row.hi > -kNoBound) || !(row.sigma >= 0.0)) return false;
-      zero += ZeroIfFinite(row.C) + ZeroIfFinite(row.D) + 0.0 * row.rho + 0.0 * row.sigma;
+      ordered = ordered && (row.lo < kNoBound) && (row.hi > -kNoBound) && (row.sigma >= 0.0);
+      zero += 0.0 * row.rho + 0.0 * row.sigma;
+      zero_a += 0.0 * row.C;
+      zero_u += 0.0 * row.D;
     }
   }
-  return zero == 0.0;
+  return ordered && zero + zero_x.sum() + zero_a.sum() + zero_u.sum() == 0.0;
 }
 
 }  // namespace detail
@@ -66,8 +77,8 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
   const bool satisfied = ShiftRows(qp);
   WriteBase(qp);
   if (satisfied) {
-    result.kkt_residual = EvaluateKkt(qp, point_).Max();
-    if (result.kkt_residual <= settings_.tolerance) result.status = SolverStatus::kSolved;
+    result.kkt_residual = base_error_;
+    result.status = SolverStatus::kSolved;
     return result;
   }
   result.method = QpMethod::kActiveSet;
@@ -86,12 +97,12 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
   for (;; ++result.iterations) {
     result.kkt_residual = Residuals(qp);
     if (!std::isfinite(result.kkt_residual)) return result;
-    if (result.kkt_residual <= settings_.tolerance) {
+    if (result.kkt_residual <= tolerance_) {
       result.status = SolverStatus::kSolved;
       break;
     }
     // Multipliers that prove something grow where steps are short.
-    if (row_residual_ > settings_.tolerance && result.iterations >= 3 && alpha < kShort) {
+    if (row_residual_ > tolerance_ && result.iterations >= 3 && alpha < kShort) {
       WriteSolution(qp);
       if (ProvesInfeasible(qp, point_)) {
         result.status = SolverStatus::kInfeasible;
@@ -108,7 +119,7 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
     Step(qp, 0.0, false);
     const double ratio = ComplementarityAfter(StepLength(1.0)) / mu_;
     // A μ far below the tolerance would cost digits (t of the size of round-off) and gain nothing.
-    const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * settings_.tolerance);
+    const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * tolerance_);
     Step(qp, target, true);
     const double keep = std::max(0.995, 1.0 - mu_);
     alpha = StepLength(keep);
@@ -127,20 +138,73 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
   return result;
 }
 
-// The optimum without rows: here the recursion carries the problem's own gradients and constants.
+// The optimum without rows. False if there is none that has its digits.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
-  if (!Factorise(qp, false)) return false;
+  const auto accurate = [&] {
+    FollowBase(qp);
+    double largest_pi = 0.0;
+    for (const auto& work : work_) largest_pi = std::max(largest_pi, work.base_pi.cwiseAbs().maxCoeff());
+    tolerance_ = settings_.tolerance + kRoundOff * largest_pi;
+    base_error_ = BaseError(qp);
+    return base_error_ <= tolerance_;
+  };
+  return (FactoriseBase(qp) && accurate()) || (FactoriseBaseSafely(qp) && accurate());
+}
+
+// The recursion in its usual form, P = Q + AᵀP'A − H_xu H_uu⁻¹ H_ux, in which P waits for K at its very end. It costs
+// half of Factorise, but its difference loses the digits of dynamics that grow by much over the horizon.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::FactoriseBase(const Qp& qp) {
   using detail::Product;
   const std::size_t N = work_.size() - 1;
+  riccati_[N].P = qp.stages[N].Q.asDiagonal();
   sweep_[N].p = qp.stages[N].q;
   for (std::size_t i = N; i-- > 0;) {
+    const auto& stage = qp.stages[i];
+    auto& riccati = riccati_[i];
+    const MatrixXX& P_next = riccati_[i + 1].P;
+    const MatrixXX A_transposed = stage.A.transpose();
+    const MatrixXU PB = Product(P_next, stage.B);
+    const MatrixXX PA = Product(P_next, stage.A);
+    MatrixUU H_uu = Product(stage.B.transpose(), PB);
+    H_uu.diagonal() += stage.R;
+    if (!riccati.FactoriseInput(H_uu)) return false;
+    const MatrixXU H_xu = Product(A_transposed, PB);
+    const MatrixXU Y = Product(H_xu, riccati.L_inverse.transpose());
+    const MatrixXU Y_D = Y * riccati.D_inverse.asDiagonal();
+    riccati.K_transposed = -Product(Y_D, riccati.L_inverse);
+    riccati.P = Product(A_transposed, PA);
+    riccati.P -= Product(Y_D, Y.transpose());
+    riccati.P.diagonal() += stage.Q;
+    const VectorX p_next = sweep_[i + 1].p + Product(P_next, stage.c);
+    const VectorU h_u = stage.r + Product(stage.B.transpose(), p_next);
+    sweep_[i].k = riccati.SolveInput(h_u);
+    sweep_[i].p = stage.q + Product(A_transposed, p_next) + Product(riccati.K_transposed, h_u);
+  }
+  return true;
+}
+
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::FactoriseBaseSafely(const Qp& qp) {
+  using detail::Product;
+  if (!Factorise(qp, false)) return false;
+  sweep_.back().p = qp.stages.back().q;
+  for (std::size_t i = work_.size() - 1; i-- > 0;) {
     const auto& stage = qp.stages[i];
     const auto& riccati = riccati_[i];
     const VectorX p_next = sweep_[i + 1].p + Product(riccati_[i + 1].P, stage.c);
     sweep_[i].k = riccati.SolveInput((stage.r + Product(stage.B.transpose(), p_next)).eval());
     sweep_[i].p = stage.q + Product(riccati.A_K_transposed, p_next) + Product(riccati.K_transposed, stage.r);
   }
+  return true;
+}
+
+// x, u, π of the base.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::FollowBase(const Qp& qp) {
+  using detail::Product;
+  const std::size_t N = work_.size() - 1;
   work_[0].base_x = qp.x0;
   work_[0].base_pi.setZero();
   for (std::size_t i = 0; i < N; ++i) {
@@ -152,7 +216,35 @@ bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
     next.base_pi = sweep_[i + 1].p + Product(riccati_[i + 1].P, next.base_x);
   }
   work_[N].base_u.setZero();
-  return work_[N].base_x.allFinite() && work_[N].base_pi.allFinite();
+}
+
+// The largest entry of the gradient at the base.
+template <int kNx, int kNu>
+double OcpQpSolver<kNx, kNu>::BaseError(const Qp& qp) const {
+  detail::LargestEntry<kNx> error_x;
+  detail::LargestEntry<kNu> error_u;
+  const std::size_t N = work_.size() - 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto& stage = qp.stages[i];
+    const auto& work = work_[i];
+    const VectorX& pi_next = work_[i + 1].base_pi;
+    error_u.Add(stage.R.cwiseProduct(work.base_u) + stage.r + detail::Product(stage.B.transpose(), pi_next));
+    if (i == 0) continue;  // x_0 is given: its gradient is free
+    error_x.Add(stage.Q.cwiseProduct(work.base_x) + stage.q - work.base_pi +
+                detail::Product(stage.A.transpose(), pi_next));
+  }
+  error_x.Add(qp.stages[N].Q.cwiseProduct(work_[N].base_x) + qp.stages[N].q - work_[N].base_pi);
+  return std::max(error_x.Value(), error_u.Value());
+}
+
+// The closed loop of the base's K, for the sweeps.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::CloseLoop(const Qp& qp) {
+  for (std::size_t i = 0; i + 1 < riccati_.size(); ++i) {
+    auto& riccati = riccati_[i];
+    riccati.A_K = qp.stages[i].A + detail::Product(qp.stages[i].B, riccati.K_transposed.transpose());
+    riccati.A_K_transposed = riccati.A_K.transpose();
+  }
 }
 
 // Bounds for deviations from the base. True if the base itself violates none.

@@ -4,26 +4,25 @@
 
 namespace control {
 
-State VehicleModel::Derivative(const State& z, const Input& u) const {
+State VehicleModel::Derivative(const State& z, const Input& u, const Angles& angles) const {
   const auto& p = parameters_;
-  const double upsilon = z[kUpsilon], nu = z[kNu], psi = z[kPsi], omega = z[kOmega], delta = u[kDelta];
+  const double upsilon = z[kUpsilon], nu = z[kNu], omega = z[kOmega], delta = u[kDelta];
   const double F_yf = p.C_alpha_f * (delta - (nu + p.l_f * omega) / upsilon);
   const double F_yr = p.C_alpha_r * (p.l_r * omega - nu) / upsilon;
   State f;
-  f[kX] = upsilon * std::cos(psi) - nu * std::sin(psi);
-  f[kY] = upsilon * std::sin(psi) + nu * std::cos(psi);
+  f[kX] = upsilon * angles.cos_psi - nu * angles.sin_psi;
+  f[kY] = upsilon * angles.sin_psi + nu * angles.cos_psi;
   f[kUpsilon] = omega * nu + u[kAcceleration];
-  f[kNu] = -omega * upsilon + 2.0 / p.m * (F_yf * std::cos(delta) + F_yr);
+  f[kNu] = -omega * upsilon + 2.0 / p.m * (F_yf * angles.cos_delta + F_yr);
   f[kPsi] = omega;
   f[kOmega] = 2.0 / p.I_z * (p.l_f * F_yf - p.l_r * F_yr);
   return f;
 }
 
-LinearModel VehicleModel::Jacobian(const State& z, const Input& u) const {
+LinearModel VehicleModel::Jacobian(const State& z, const Input& u, const Angles& angles) const {
   const auto& p = parameters_;
   const double upsilon = z[kUpsilon], nu = z[kNu], omega = z[kOmega];
-  const double sin_psi = std::sin(z[kPsi]), cos_psi = std::cos(z[kPsi]);
-  const double sin_delta = std::sin(u[kDelta]), cos_delta = std::cos(u[kDelta]);
+  const auto& [sin_psi, cos_psi, sin_delta, cos_delta] = angles;
   // Tangents of the axles' angles of travel, and the forces' derivatives; ∂F_yf/∂δ = C_αf.
   const double front = (nu + p.l_f * omega) / upsilon, rear = (nu - p.l_r * omega) / upsilon;
   const double f_nu = -p.C_alpha_f / upsilon, f_omega = p.l_f * f_nu, f_upsilon = -front * f_nu;
