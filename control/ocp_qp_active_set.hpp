@@ -20,6 +20,7 @@ namespace control {
 // Nothing if the interior point has to do it: too many rows, or round-off.
 template <int kNx, int kNu>
 std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp, const Point* guess,
+                                                                    const TimeLeft* time_left,
                                                                     QpResult& result) {
   constexpr int kMaxCorrections = 3;
   CloseLoop(qp);
@@ -32,6 +33,10 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
   }
   bool violated = FindViolated(qp, guess);
   for (int corrections = 0; corrections <= kMaxCorrections;) {
+    if (time_left != nullptr && !(*time_left)()) {
+      WriteActiveSet(qp);
+      return SolverStatus::kIterationLimit;
+    }
     if (violated && !AddRows(qp)) return std::nullopt;
     const auto solved = dual_.Solve(RowTolerance());
     result.iterations += dual_.changes();

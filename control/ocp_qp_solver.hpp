@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -36,11 +37,15 @@ struct QpSettings {
 
 enum class QpMethod : std::uint8_t { kBase, kActiveSet, kInteriorPoint };
 
+// Asked before each iteration; false ends the solve. The caller's, as time is.
+using TimeLeft = std::function<bool()>;
+
 struct QpResult {
   SolverStatus status = SolverStatus::kNumericalFailure;
   QpMethod method = QpMethod::kBase;  // that gave the answer
   int iterations = 0;                 // changes of the active set, or iterations of the interior point
   double kkt_residual = 0.0;
+  bool feasible = false;  // solution() satisfies the dynamics and the hard rows
 };
 
 template <int kNx, int kNu>
@@ -52,15 +57,16 @@ class OcpQpSolver {
   explicit OcpQpSolver(int horizon, const QpSettings& settings = {});
 
   // `qp` must have the solver's horizon. Where nothing is violated by the optimum without any row, that is
-  // the answer, after 0 iterations. A guess gives the inputs and multipliers to start from. Does not
-  // allocate.
+  // the answer, after 0 iterations. A guess, which must not be solution() itself, tells which rows to look at first,
+  // and where the interior point starts. Does not allocate.
   //   kSolved            solution() satisfies the conditions of optimality to the tolerance (in deviations from
   //                      the optimum without rows, whose own round-off comes on top)
   //   kInfeasible        solution()'s multipliers prove it (ProvesInfeasible)
-  //   kIterationLimit    neither within max_iterations; solution() is the last iterate. So ends also a
-  //                      contradiction by little between rows whose inputs have no hard bounds
+  //   kIterationLimit    neither within max_iterations, or while time was left. solution() is the cheaper of the
+  //                      last iterate and the guess's inputs among those that are feasible, if one is; else the last
+  //                      iterate. So ends also a contradiction by little between rows whose inputs have no hard bounds
   //   kNumericalFailure  data not finite, σ < 0, or a factorisation broke down; solution() is meaningless
-  QpResult Solve(const Qp& qp, const Point* guess = nullptr);
+  QpResult Solve(const Qp& qp, const Point* guess = nullptr, const TimeLeft* time_left = nullptr);
 
   [[nodiscard]] const Point& solution() const { return point_; }
 
@@ -121,7 +127,8 @@ class OcpQpSolver {
   [[nodiscard]] double BaseError(const Qp& qp) const;
   void CloseLoop(const Qp& qp);
   bool ShiftRows(const Qp& qp);
-  std::optional<SolverStatus> SolveByActiveSet(const Qp& qp, const Point* guess, QpResult& result);
+  std::optional<SolverStatus> SolveByActiveSet(const Qp& qp, const Point* guess, const TimeLeft* time_left,
+                                               QpResult& result);
   [[nodiscard]] double RowTolerance() const { return 0.1 * tolerance_; }
   [[nodiscard]] static double SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation);
   bool FindViolated(const Qp& qp, const Point* guess);
@@ -131,6 +138,7 @@ class OcpQpSolver {
   bool ProveByRay(const Qp& qp);
   void WriteActiveSet(const Qp& qp);
 
+  QpResult SolveByInteriorPoint(const Qp& qp, const Point* guess, const TimeLeft* time_left);
   void StartRows(const Qp& qp);
   void StartCold(const Qp& qp);
   bool StartFrom(const Qp& qp, const Point& guess);
@@ -149,9 +157,12 @@ class OcpQpSolver {
   void WriteBase(const Qp& qp);
   void WriteWeightlessSlacks(const Qp& qp);
   void WriteSolution(const Qp& qp);
+  bool SettleForFeasible(const Qp& qp, const Point* guess);
+  [[nodiscard]] bool FillSlacks(const Qp& qp, Point& point) const;
 
   QpSettings settings_;
   Point point_;
+  Point rollout_;  // of a guess
   std::vector<StageWork> work_;
   std::vector<detail::RiccatiStage<kNx, kNu>> riccati_;
   std::vector<detail::SweepStage<kNx, kNu, 1>> sweep_;

@@ -61,6 +61,7 @@ template <int kNx, int kNu>
 OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
     : settings_(settings),
       point_(horizon),
+      rollout_(horizon),
       work_(static_cast<std::size_t>(horizon) + 1),
       riccati_(work_.size()),
       sweep_(work_.size()),
@@ -71,23 +72,29 @@ OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
 }
 
 template <int kNx, int kNu>
-QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
+QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess, const TimeLeft* time_left) {
   QpResult result;
   if (!detail::HasFiniteData(qp) || !SolveBase(qp)) return result;
   const bool satisfied = ShiftRows(qp);
   WriteBase(qp);
   if (satisfied) {
-    result.kkt_residual = base_error_;
-    result.status = SolverStatus::kSolved;
-    return result;
+    return {.status = SolverStatus::kSolved, .kkt_residual = base_error_, .feasible = true};
   }
   result.method = QpMethod::kActiveSet;
-  if (const auto status = SolveByActiveSet(qp, guess, result)) {
+  if (const auto status = SolveByActiveSet(qp, guess, time_left, result)) {
     result.status = *status;
-    return result;
+  } else {
+    result = SolveByInteriorPoint(qp, guess, time_left);
   }
-  result.method = QpMethod::kInteriorPoint;
-  result.iterations = 0;
+  result.feasible = result.status == SolverStatus::kSolved;
+  if (result.status == SolverStatus::kIterationLimit) result.feasible = SettleForFeasible(qp, guess);
+  return result;
+}
+
+template <int kNx, int kNu>
+QpResult OcpQpSolver<kNx, kNu>::SolveByInteriorPoint(const Qp& qp, const Point* guess,
+                                                     const TimeLeft* time_left) {
+  QpResult result{.method = QpMethod::kInteriorPoint};
   StartRows(qp);
   if (guess == nullptr || !StartFrom(qp, *guess)) StartCold(qp);
   constexpr int kMaxHalvings = 6;
@@ -109,7 +116,7 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess) {
         return result;
       }
     }
-    if (result.iterations == settings_.max_iterations) {
+    if (result.iterations == settings_.max_iterations || (time_left != nullptr && !(*time_left)())) {
       result.status = SolverStatus::kIterationLimit;
       break;
     }
@@ -351,6 +358,37 @@ void OcpQpSolver<kNx, kNu>::Move(const Qp& qp, double alpha) {
     side(at.slack);
     at.epsilon += alpha * at.depsilon;
   });
+}
+
+// The slacks that the soft rows need at the point's x, u. True if the hard rows hold.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::FillSlacks(const Qp& qp, Point& point) const {
+  double violation = 0.0;
+  detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
+    auto& at = point.stages[i];
+    const double value = detail::RowValue(row, at.x, at.u);
+    const double beyond = std::max({0.0, row.lo - value, value - row.hi});
+    at.slack[j] = row.soft() ? beyond : 0.0;
+    if (!row.soft()) violation = std::max(violation, beyond);
+  });
+  return violation <= tolerance_;
+}
+
+// Makes the best of a solve that was stopped. True if solution() is feasible.
+template <int kNx, int kNu>
+bool OcpQpSolver<kNx, kNu>::SettleForFeasible(const Qp& qp, const Point* guess) {
+  const bool feasible = FillSlacks(qp, point_);
+  if (guess == nullptr) return feasible;
+  rollout_ = *guess;
+  rollout_.stages[0].x = qp.x0;
+  for (std::size_t i = 0; i + 1 < work_.size(); ++i) {
+    const auto& stage = qp.stages[i];
+    const auto& at = rollout_.stages[i];
+    rollout_.stages[i + 1].x = stage.A * at.x + stage.B * at.u + stage.c;
+  }
+  if (!FillSlacks(qp, rollout_)) return feasible;
+  if (!feasible || EvaluateCost(qp, rollout_) < EvaluateCost(qp, point_)) point_ = rollout_;
+  return true;
 }
 
 template <int kNx, int kNu>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <fmt/format.h>
 #include <map>
 #include <stdexcept>
@@ -12,14 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "control/ocp_qp_solver.hpp"
-#include "sim/percentile.hpp"
 #include "tools/qp_instance.hpp"
+#include "tools/times.hpp"
 
 namespace tools {
 namespace {
 
 using Solver = control::OcpQpSolver<8, 2>;
-using Clock = std::chrono::steady_clock;
 
 struct Named {
   std::string series;
@@ -31,8 +29,7 @@ struct Line {
   std::array<int, 3> by_method{};  // control::QpMethod
   double iterations = 0.0;         // of all instances
   double largest_kkt = 0.0;
-  std::vector<double> solve_us;        // the solve alone
-  std::vector<double> build_solve_us;  // and the problem built first
+  Times solve, build_solve;  // the solve alone; and the problem built first
 };
 
 std::map<int, std::vector<Named>> ReadFolder(const std::filesystem::path& folder) {
@@ -55,13 +52,6 @@ std::map<int, std::vector<Named>> ReadFolder(const std::filesystem::path& folder
   return by_horizon;
 }
 
-template <typename Work>
-double Microseconds(const Work& work) {
-  const auto start = Clock::now();
-  work();
-  return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-}
-
 Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
   const int horizon = all.front().instance.horizon();
   Solver solver(horizon);
@@ -73,13 +63,12 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
     const control::OcpQpPoint<8, 2>* guess = warm && series == named.series ? &before : nullptr;
     control::QpResult result;
     named.instance.Build(qp);
-    for (int i = 0; i < repeat; ++i)
-      line.solve_us.push_back(Microseconds([&] { result = solver.Solve(qp, guess); }));
+    for (int i = 0; i < repeat; ++i) line.solve.Measure([&] { result = solver.Solve(qp, guess); });
     for (int i = 0; i < repeat; ++i) {
-      line.build_solve_us.push_back(Microseconds([&] {
+      line.build_solve.Measure([&] {
         named.instance.Build(qp);
         result = solver.Solve(qp, guess);
-      }));
+      });
     }
     ++line.instances;
     ++line.by_method[static_cast<std::size_t>(result.method)];
@@ -97,15 +86,7 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
     }
     series = solved ? named.series : "";
   }
-  std::ranges::sort(line.solve_us);
-  std::ranges::sort(line.build_solve_us);
   return line;
-}
-
-nlohmann::ordered_json TimesJson(const std::vector<double>& sorted) {
-  return {{"median_us", sim::Percentile(sorted, 0.5)},
-          {"p99_us", sim::Percentile(sorted, 0.99)},
-          {"max_us", sorted.back()}};
 }
 
 nlohmann::ordered_json ToJson(int horizon, const char* start, const Line& line) {
@@ -120,19 +101,18 @@ nlohmann::ordered_json ToJson(int horizon, const char* start, const Line& line) 
           {"interior_point", line.by_method[2]},
           {"mean_iterations", line.iterations / line.instances},
           {"largest_kkt_residual", line.largest_kkt},
-          {"solve", TimesJson(line.solve_us)},
-          {"build_and_solve", TimesJson(line.build_solve_us)}};
+          {"solve", line.solve.ToJson()},
+          {"build_and_solve", line.build_solve.ToJson()}};
 }
 
 std::string ToText(int horizon, const char* start, const Line& line) {
-  const auto times = [](const std::vector<double>& sorted) {
-    return fmt::format("{:8.1f} {:8.1f} {:8.1f}", sim::Percentile(sorted, 0.5), sim::Percentile(sorted, 0.99),
-                       sorted.back());
+  const auto text = [](const Times& times) {
+    return fmt::format("{:8.1f} {:8.1f} {:8.1f}", times.Median(), times.P99(), times.Max());
   };
   return fmt::format("{:4}  {:5} {:7} {:10} {:6} {:6} {:6} {:6} {:10.2f} {:9.1e}  {}  {}\n", horizon, start,
                      line.solved, line.infeasible, line.failed, line.by_method[0], line.by_method[1],
-                     line.by_method[2], line.iterations / line.instances, line.largest_kkt,
-                     times(line.solve_us), times(line.build_solve_us));
+                     line.by_method[2], line.iterations / line.instances, line.largest_kkt, text(line.solve),
+                     text(line.build_solve));
 }
 
 }  // namespace

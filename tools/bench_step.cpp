@@ -1,27 +1,30 @@
 #include "tools/bench_step.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <stdexcept>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "config/route_file.hpp"
 #include "control/reference.hpp"
 #include "daemon/config.hpp"
-#include "sim/percentile.hpp"
 #include "sim/plant.hpp"
 #include "sim/scenario.hpp"
 #include "sim/virtual_vehicle.hpp"
 #include "tools/make_controller.hpp"
 #include "tools/scenario_config.hpp"
+#include "tools/times.hpp"
 
 namespace tools {
 namespace {
 
 struct Samples {
-  std::vector<double> microseconds;
+  Times times;
   std::int64_t iterations = 0;
   std::int64_t unsolved = 0;
 };
@@ -36,15 +39,16 @@ void Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config, const c
   control::Input u = control::Input::Zero();
   std::vector<control::State> window(static_cast<std::size_t>(horizon) + 1);
   for (int k = 0; k + horizon < reference.size(); ++k) {
-    const auto start = std::chrono::steady_clock::now();
-    reference.Window(k, window);
-    const control::Plan& plan = controller->Step({.z = plant.state(),
-                                                  .u_previous = u,
-                                                  .reference = window,
-                                                  .road = route.road,
-                                                  .obstacles = scenario.obstacles});
-    const std::chrono::duration<double, std::micro> elapsed = std::chrono::steady_clock::now() - start;
-    samples.microseconds.push_back(elapsed.count());
+    const control::Plan* step = nullptr;
+    samples.times.Measure([&] {
+      reference.Window(k, window);
+      step = &controller->Step({.z = plant.state(),
+                                .u_previous = u,
+                                .reference = window,
+                                .road = route.road,
+                                .obstacles = scenario.obstacles});
+    });
+    const control::Plan& plan = *step;
     samples.iterations += plan.iterations;
     if (plan.status == control::SolverStatus::kSolved) {
       u = plan.u[0];
@@ -57,11 +61,24 @@ void Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config, const c
   }
 }
 
+// The slope of the straight line through (log N, log median) by least squares.
+double Exponent(const std::vector<int>& horizons, const std::vector<double>& medians) {
+  const auto count = static_cast<Eigen::Index>(horizons.size());
+  Eigen::MatrixX2d line(count, 2);
+  Eigen::VectorXd log_median(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    line.row(k) << 1.0, std::log(horizons[static_cast<std::size_t>(k)]);
+    log_median[k] = std::log(medians[static_cast<std::size_t>(k)]);
+  }
+  return line.colPivHouseholderQr().solve(log_median)[1];
+}
+
 }  // namespace
 
 void BenchStep(const BenchStepOptions& options, std::ostream& out) {
   const sim::Scenario scenario = sim::LoadScenario(options.scenario);
   lpvmpcd::Config config = LoadConfigFor(scenario, options.scenario, options.config);
+  if (!options.controller.empty()) lpvmpcd::SelectController(config, options.controller);
   const config::RouteFile route = config::LoadRoute(config.route);
   const control::Reference reference(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s);
   for (const int horizon : options.horizons) {
@@ -71,32 +88,36 @@ void BenchStep(const BenchStepOptions& options, std::ostream& out) {
     }
   }
 
-  nlohmann::json rows = nlohmann::json::array();
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  std::vector<double> medians;
   if (!options.json) out << "   N   steps  median_us    p99_us    max_us  iterations  unsolved\n";
   for (const int horizon : options.horizons) {
     config.mpc.horizon = config.affine.horizon = horizon;
     Samples samples;
     for (int i = 0; i < options.repeat; ++i) Drive(scenario, config, reference, route, samples);
-    std::ranges::sort(samples.microseconds);
-    const std::size_t count = samples.microseconds.size();
-    const double median = sim::Percentile(samples.microseconds, 0.5);
-    const double p99 = sim::Percentile(samples.microseconds, 0.99);
-    const double max = samples.microseconds.back();
-    const double iterations = static_cast<double>(samples.iterations) / static_cast<double>(count);
+    const Times& times = samples.times;
+    medians.push_back(times.Median());
+    const double iterations = static_cast<double>(samples.iterations) / static_cast<double>(times.count());
     if (options.json) {
-      rows.push_back({{"horizon", horizon},
-                      {"steps", count},
-                      {"median_us", median},
-                      {"p99_us", p99},
-                      {"max_us", max},
-                      {"mean_iterations", iterations},
-                      {"unsolved", samples.unsolved}});
+      nlohmann::ordered_json row = {{"horizon", horizon}, {"steps", times.count()}};
+      row.update(times.ToJson());
+      row["mean_iterations"] = iterations;
+      row["unsolved"] = samples.unsolved;
+      rows.push_back(row);
     } else {
-      out << fmt::format("{:4} {:7} {:10.1f} {:9.1f} {:9.1f} {:11.2f} {:9}\n", horizon, count, median, p99,
-                         max, iterations, samples.unsolved);
+      out << fmt::format("{:4} {:7} {:10.1f} {:9.1f} {:9.1f} {:11.2f} {:9}\n", horizon, times.count(),
+                         times.Median(), times.P99(), times.Max(), iterations, samples.unsolved);
     }
   }
-  if (options.json) out << rows.dump(2) << '\n';
+  const bool several =
+      std::ranges::adjacent_find(options.horizons, std::ranges::not_equal_to{}) != options.horizons.end();
+  if (options.json) {
+    nlohmann::ordered_json figures = {{"horizons", rows}};
+    if (several) figures["exponent"] = Exponent(options.horizons, medians);
+    out << figures.dump(2) << '\n';
+  } else if (several) {
+    out << fmt::format("median ~ N^{:.2f}\n", Exponent(options.horizons, medians));
+  }
 }
 
 }  // namespace tools

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <ostream>
+#include <string>
 #include <vector>
 
 namespace tools {
@@ -10,13 +11,14 @@ namespace tools {
 struct BenchStepOptions {
   std::filesystem::path scenario;
   std::filesystem::path config;  // of the daemon; empty: the one that the scenario names
-  std::vector<int> horizons{8, 15};
+  std::string controller;        // empty: the configuration's
+  std::vector<int> horizons{8, 15, 40, 80, 200};
   int repeat = 5;  // drives per horizon
   bool json = false;
 };
 
-// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon. Throws one line
-// at bad input, before anything is written.
+// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon, and of several the
+// exponent of N with which the median grows. Throws one line at bad input, before anything is written.
 void BenchStep(const BenchStepOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -116,12 +116,14 @@ int main(int argc, char** argv) {
   decode_command->add_option("LOG", log, "candump log; - for standard input")->capture_default_str();
 
   tools::BenchStepOptions bench;
-  bench.scenario = Scenarios("demo/scenario.toml");
+  bench.scenario = Scenarios("whole_drive/scenario.toml");
   CLI::App* bench_command =
       app.add_subcommand("bench", "time parts of the controller")->require_subcommand(0, 1);
   CLI::App* step_command = bench_command->add_subcommand("step", "the whole control step along a drive");
   step_command->add_option("--scenario", bench.scenario, "scenario in TOML")->capture_default_str();
   step_command->add_option("--config", bench.config, "daemon's configuration, instead of the scenario's");
+  step_command->add_option("--controller", bench.controller,
+                           "lpv-affine, lpv, lpv-standard, nmpc or nmpc-affine");
   step_command->add_option("--horizon", bench.horizons, "N, one or several")->capture_default_str();
   step_command->add_option("--repeat", bench.repeat, "drives per horizon")
       ->check(CLI::Range(1, 1000))

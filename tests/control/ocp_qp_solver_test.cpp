@@ -404,6 +404,55 @@ TEST(OcpQpSolver, FirstIterationIsNotTheLastIfOnlyOneIsAllowed) {
   EXPECT_GT(result.kkt_residual, 1e-8);
 }
 
+// Lets a solve ask so many times.
+TimeLeft Asks(int count) {
+  return [count]() mutable { return count-- > 0; };
+}
+
+TEST_P(OcpQpSolverBy, SolveThatIsStoppedSettlesForTheBestFeasiblePoint) {
+  testing::Random random(11);
+  int stopped = 0, own = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Qp qp = testing::RandomQp<8, 2>(random, {.equalities = 0.0, .exact = 0.5});
+    Solver solver(qp.horizon(), settings_);
+    ASSERT_EQ(solver.Solve(qp).status, SolverStatus::kSolved) << i;
+    const Point optimum = solver.solution();
+    const double least = EvaluateCost(qp, optimum);
+    for (int asks = 0; asks < 20; ++asks) {
+      const TimeLeft alone = Asks(asks), guided = Asks(asks);
+      const QpResult result = solver.Solve(qp, nullptr, &alone);
+      if (result.status == SolverStatus::kSolved) break;
+      ASSERT_EQ(result.status, SolverStatus::kIterationLimit) << i;
+      ++stopped;
+      const KktResidual residual = EvaluateKkt(qp, solver.solution());
+      EXPECT_LT(residual.dynamics, 1e-8) << i;
+      if (result.feasible) {
+        ++own;
+        EXPECT_LT(residual.rows, 1e-7) << i;
+        EXPECT_GT(EvaluateCost(qp, solver.solution()), least - 1e-6 * std::abs(least)) << i;
+      }
+      // The optimum's inputs are feasible, and nothing is cheaper.
+      const QpResult better = solver.Solve(qp, &optimum, &guided);
+      EXPECT_TRUE(better.feasible) << i;
+      EXPECT_NEAR(EvaluateCost(qp, solver.solution()), least, 1e-6 * (1.0 + std::abs(least))) << i;
+      EXPECT_LT(EvaluateKkt(qp, solver.solution()).rows, 1e-7) << i;
+    }
+  }
+  EXPECT_GT(stopped, 100);
+  EXPECT_GE(own, GetParam() == 0 ? 1 : 0);  // iterates of the active set are on the other side until the end
+}
+
+TEST_P(OcpQpSolverBy, SolveThatIsStoppedWithoutAFeasiblePointSaysSo) {
+  const Qp qp = ReadInstance("s0trN8_0041.qp");
+  Solver solver(qp.horizon(), settings_);
+  Point outside(qp.horizon());
+  for (auto& stage : outside.stages) stage.u.fill(100.0);
+  const TimeLeft none = Asks(0);
+  const QpResult result = solver.Solve(qp, &outside, &none);
+  EXPECT_EQ(result.status, SolverStatus::kIterationLimit);
+  EXPECT_FALSE(result.feasible);
+}
+
 TEST_P(OcpQpSolverBy, SolvesAgainAfterAFailure) {
   const Qp qp = ReadInstance("s0trN8_0041.qp");
   Solver solver(qp.horizon(), settings_);
