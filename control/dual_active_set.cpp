@@ -8,7 +8,9 @@ namespace control {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kDependent = 1e-12;  // a pivot below this share of its diagonal entry is round-off
+// A pivot below this share of its diagonal entry is taken for round-off. Much more than that is: a ray that is none
+// proves nothing and does no harm, but a dependent row that joins L leaves λ without digits.
+constexpr double kDependent = 1e-8;
 constexpr int kChangesPerRow = 10;
 
 }  // namespace

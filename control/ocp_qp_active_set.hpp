@@ -22,7 +22,7 @@ template <int kNx, int kNu>
 std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp, const Point* guess,
                                                                     const TimeLeft* time_left,
                                                                     QpResult& result) {
-  constexpr int kMaxCorrections = 3;
+  constexpr int kMaxCorrections = 10;
   CloseLoop(qp);
   dual_.Clear();
   known_.clear();
@@ -88,7 +88,8 @@ bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
       dual_.Correct(work.known[j], value);
       const double lambda = dual_.lambda(work.known[j]);
       const double error = violation - SlackOf(row, lambda, violation);
-      row_error_ = std::max({row_error_, error, std::abs(lambda * error)});
+      const double round_off = kRoundOff * std::max(1.0, std::abs(value));
+      row_error_ = std::max({row_error_, error, std::abs(lambda) * (std::abs(error) - round_off)});
     } else if (violation > tolerance && !row.weightless()) {
       row_error_ = std::max(row_error_, violation);
       const RowPlace place{.stage = i, .row = j, .violation = violation};

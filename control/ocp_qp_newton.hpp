@@ -79,9 +79,9 @@ bool OcpQpSolver<kNx, kNu>::Factorise(const Qp& qp, bool with_rows) {
       }
       if (!riccati.FactoriseInput(H_uu)) return false;
       riccati.K_transposed = riccati.SolveInput(H_xu.transpose()).transpose();
-      riccati.A_K = stage.A + Product(stage.B, riccati.K_transposed.transpose());
-      riccati.A_K_transposed = riccati.A_K.transpose();
-      const MatrixXX PA_K = Product(P_next, riccati.A_K);
+      const MatrixXX A_K = stage.A + Product(stage.B, riccati.K_transposed.transpose());
+      riccati.A_K_transposed = A_K.transpose();
+      const MatrixXX PA_K = Product(P_next, A_K);
       const MatrixXU KR = riccati.K_transposed * R.asDiagonal();
       P = Product(riccati.A_K_transposed, PA_K) + Product(KR, riccati.K_transposed.transpose());
       P = (0.5 * (P + P.transpose())).eval();

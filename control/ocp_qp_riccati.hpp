@@ -21,9 +21,9 @@ auto Product(const Left& left, const Right& right) {
 
 template <int kNx, int kNu>
 struct RiccatiStage {
-  Eigen::Matrix<double, kNx, kNx> P;                    // cost-to-go ½ xᵀP x
-  Eigen::Matrix<double, kNx, kNx> A_K, A_K_transposed;  // A + B K
-  Eigen::Matrix<double, kNx, kNu> K_transposed;         // u = k + K x
+  Eigen::Matrix<double, kNx, kNx> P;               // cost-to-go ½ xᵀP x
+  Eigen::Matrix<double, kNx, kNx> A_K_transposed;  // of A + B K
+  Eigen::Matrix<double, kNx, kNu> K_transposed;    // u = k + K x
   // H_uu = L D Lᵀ, L with ones on its diagonal. Beside a w of 1e10 the inverse of H_uu itself has few digits.
   Eigen::Matrix<double, kNu, kNu> L_inverse;
   Eigen::Matrix<double, kNu, 1> D_inverse;
@@ -84,12 +84,10 @@ void SweepRiccati(const OcpQp<kNx, kNu>& qp, const std::vector<RiccatiStage<kNx,
   for (std::size_t i = 0; i < N; ++i) {
     const auto& at = riccati[i];
     auto& s = sweep[i];
-    auto& dx_next = sweep[i + 1].dx;
     s.du = Product(at.K_transposed.transpose(), s.dx);
-    dx_next = Product(at.A_K, s.dx);
-    if (i > last) continue;
-    s.du += s.k;
-    dx_next += Product(qp.stages[i].B, s.k);
+    if (i <= last) s.du += s.k;
+    // Not by A_K: the dynamics hold to round-off, however large K is.
+    sweep[i + 1].dx = Product(qp.stages[i].A, s.dx) + Product(qp.stages[i].B, s.du);
   }
 }
 

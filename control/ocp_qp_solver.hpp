@@ -27,9 +27,11 @@
 
 namespace control {
 
+struct OcpQpKernels;
+
 struct QpSettings {
   // Largest KKT residual of a solved problem, absolute, in the problem's units; 1e-12 of the largest multiplier π of the
-  // problem without rows comes on top, for round-off.
+  // problem without rows comes on top, for round-off, and λ times 1e-12 of its row's value.
   double tolerance = 1e-8;
   int max_iterations = 60;  // of the interior point
   int max_known_rows = 96;  // that the active set may look at; 0: the interior point alone
@@ -71,6 +73,7 @@ class OcpQpSolver {
   [[nodiscard]] const Point& solution() const { return point_; }
 
  private:
+  friend struct OcpQpKernels;                           // benchmarks
   static constexpr double kDualRegularisation = 1e-10;  // δ
 
   static constexpr double kRoundOff = 1e-12;

@@ -248,9 +248,9 @@ double OcpQpSolver<kNx, kNu>::BaseError(const Qp& qp) const {
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::CloseLoop(const Qp& qp) {
   for (std::size_t i = 0; i + 1 < riccati_.size(); ++i) {
-    auto& riccati = riccati_[i];
-    riccati.A_K = qp.stages[i].A + detail::Product(qp.stages[i].B, riccati.K_transposed.transpose());
-    riccati.A_K_transposed = riccati.A_K.transpose();
+    const auto& stage = qp.stages[i];
+    riccati_[i].A_K_transposed =
+        (stage.A + detail::Product(stage.B, riccati_[i].K_transposed.transpose())).transpose();
   }
 }
 

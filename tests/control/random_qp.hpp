@@ -65,6 +65,17 @@ OcpQp<kNx, kNu> RandomQp(Random& random, const RandomQpOptions& options) {
   return qp;
 }
 
+// The same row, multiplied by a factor.
+template <typename Row>
+void ScaleRow(double factor, Row& row) {
+  row.C *= factor;
+  row.D *= factor;
+  row.lo *= factor;
+  row.hi *= factor;
+  if (row.soft()) row.rho /= factor * factor;
+  row.sigma /= factor;
+}
+
 // Adds a hard row on a state that lies `beyond` outside what inputs within [-1, 1] can reach.
 template <int kNx, int kNu>
 void MakeInfeasible(Random& random, OcpQp<kNx, kNu>& qp, double beyond) {
@@ -81,6 +92,49 @@ void MakeInfeasible(Random& random, OcpQp<kNx, kNu>& qp, double beyond) {
   }
   largest += adjoint.dot(qp.x0);
   (void)qp.stages[static_cast<std::size_t>(k)].AddRow(C, VectorU::Zero(), largest + beyond, kNoBound);
+}
+
+// Repeats some of the rows, as they are or multiplied by a factor: their multipliers are not unique.
+template <int kNx, int kNu>
+void RepeatRows(Random& random, OcpQp<kNx, kNu>& qp) {
+  for (auto& stage : qp.stages) {
+    for (int j = 0, count = stage.row_count; j < count && stage.row_count < kMaxRows - 1; ++j) {
+      if (!random.Chance(0.4)) continue;
+      auto row = stage.rows[static_cast<std::size_t>(j)];
+      if (row.unit == row.kGeneral) ScaleRow(random.Uniform(0.5, 2.0), row);
+      stage.rows[static_cast<std::size_t>(stage.row_count++)] = row;
+    }
+  }
+}
+
+// The same problem in other units: of each state, of each row and of the cost, by up to so many decades either way.
+template <int kNx, int kNu>
+void Rescale(Random& random, double decades, OcpQp<kNx, kNu>& qp) {
+  using VectorX = Eigen::Matrix<double, kNx, 1>;
+  const auto factor = [&] { return std::pow(10.0, random.Uniform(-decades, decades)); };
+  VectorX unit;  // x = unit ∘ (x in its unit)
+  for (double& entry : unit) entry = factor();
+  const VectorX inverse = unit.cwiseInverse();
+  const double cost = factor();
+  qp.x0 = qp.x0.cwiseProduct(inverse);
+  for (auto& stage : qp.stages) {
+    stage.Q = cost * stage.Q.cwiseProduct(unit).cwiseProduct(unit);
+    stage.q = cost * stage.q.cwiseProduct(unit);
+    stage.R *= cost;
+    stage.r *= cost;
+    stage.A = (inverse.asDiagonal() * stage.A * unit.asDiagonal()).eval();
+    stage.B = (inverse.asDiagonal() * stage.B).eval();
+    stage.c = stage.c.cwiseProduct(inverse);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      auto& row = stage.rows[j];
+      row.rho *= row.soft() ? cost : 1.0;
+      row.sigma *= cost;
+      if (row.unit >= kNx) continue;  // an input's bound
+      row.C = row.C.cwiseProduct(unit);
+      row.unit = row.kGeneral;
+      ScaleRow(factor(), row);
+    }
+  }
 }
 
 }  // namespace control::testing
