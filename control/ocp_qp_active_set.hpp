@@ -29,6 +29,7 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
   for (auto& work : work_) {
     work.x.setZero();
     work.u.setZero();
+    work.pi.setZero();
     work.known.fill(-1);
   }
   bool violated = FindViolated(qp, guess);
@@ -94,7 +95,7 @@ bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
       row_error_ = std::max(row_error_, violation);
       const RowPlace place{.stage = i, .row = j, .violation = violation};
       if (guess != nullptr && guess->stages[i].lambda[j].Presses() &&
-          candidates_.size() + kBatch < candidates_.capacity())
+          static_cast<int>(candidates_.size()) < settings_.max_known_rows)
         candidates_.push_back(place);
       else
         offer(place);
@@ -107,7 +108,7 @@ bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
 // The candidates into the dual, with their columns of M. False if it is full.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::AddRows(const Qp& qp) {
-  if (known_.size() + candidates_.size() > known_.capacity()) return false;
+  if (dual_.size() + static_cast<int>(candidates_.size()) > settings_.max_known_rows) return false;
   for (std::size_t begin = 0; begin < candidates_.size(); begin += kBatch) {
     const std::size_t count = std::min(candidates_.size() - begin, static_cast<std::size_t>(kBatch));
     std::size_t last = 0;

@@ -1,8 +1,13 @@
-// Solves an OcpQp by a primal-dual interior-point method with Mehrotra's predictor and corrector; each Newton
-// system is an unconstrained linear-quadratic problem, solved by the Riccati recursion in O(N).
+// Solves an OcpQp by the cheapest of three ways that will do:
+//   1. The optimum without rows, by one Riccati recursion: the base. If it violates no row, it is the answer.
+//   2. A dual active set on the rows that matter, whose columns are sweeps of the base's recursion: O(N) for each row
+//      (ocp_qp_active_set.hpp, dual_active_set.hpp).
+//   3. Where that knows too many rows, or loses its digits, a primal-dual interior point with Mehrotra's predictor and
+//      corrector, whose Newton systems are Riccati recursions: O(N) for each iteration (ocp_qp_newton.hpp).
 //
-// Sources: S. Mehrotra, On the implementation of a primal-dual interior point method (1992); C. V. Rao, S. J.
-// Wright, J. B. Rawlings, Application of interior-point methods to model predictive control (1998).
+// Sources: C. V. Rao, S. J. Wright, J. B. Rawlings, Application of interior-point methods to model predictive control
+// (1998), for the recursion and 3; D. Goldfarb, A. Idnani, A numerically stable dual method for solving strictly convex
+// quadratic programs (1983), for 2; S. Mehrotra, On the implementation of a primal-dual interior point method (1992).
 //
 // Example:
 //   OcpQpSolver<8, 2> solver(horizon);
@@ -75,15 +80,13 @@ class OcpQpSolver {
  private:
   friend struct OcpQpKernels;                           // benchmarks
   static constexpr double kDualRegularisation = 1e-10;  // δ
-
   static constexpr double kRoundOff = 1e-12;
-  static constexpr int kBatch = 4;
+  static constexpr int kBatch = 4;  // rows whose responses share a sweep
 
   using VectorX = Eigen::Matrix<double, kNx, 1>;
   using VectorU = Eigen::Matrix<double, kNu, 1>;
   using MatrixXX = Eigen::Matrix<double, kNx, kNx>;
   using MatrixXU = Eigen::Matrix<double, kNx, kNu>;
-  using MatrixUX = Eigen::Matrix<double, kNu, kNx>;
   using MatrixUU = Eigen::Matrix<double, kNu, kNu>;
 
   // One bound of a row or of its slack: the distance to the bound as a variable t > 0 of its own, and the
@@ -173,10 +176,13 @@ class OcpQpSolver {
   DualActiveSet dual_;
   std::vector<RowPlace> known_;       // the dual's rows
   std::vector<RowPlace> candidates_;  // to be added to them
-  double row_error_ = 0.0;  // largest error of a row's condition of optimality at x, u and the dual's λ
+
+  double tolerance_ = 0.0;   // with what round-off needs
+  double base_error_ = 0.0;  // largest entry of the gradient at the base
   bool has_weightless_rows_ = false;
-  double tolerance_ = 0.0;                         // with what round-off needs
-  double base_error_ = 0.0;                        // largest entry of the gradient at the base
+  // Of the active set: the largest error of a row's condition of optimality at x, u and the dual's λ.
+  double row_error_ = 0.0;
+  // Of the interior point.
   double mu_ = 0.0;                                // mean complementarity
   double longest_ = 0.0;                           // the step of this length brings the first t or λ to zero
   double first_order_ = 0.0, second_order_ = 0.0;  // of the sum of all λ t, in the step's length
