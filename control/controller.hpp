@@ -68,7 +68,7 @@ class Controller {
   // is not known. It solves, and does not allocate, but for an NMPC's.
   [[nodiscard]] virtual std::optional<ConstraintViolation> Unsatisfied() const { return std::nullopt; }
   // Shows from now on every quadratic problem of a step before it is solved. False if the controller solves none.
-  [[nodiscard]] virtual bool ShowQps(QpObserver /*observer*/) { return false; }
+  [[nodiscard]] virtual bool ShowQps(const QpObserver& /*observer*/) { return false; }
 };
 
 }  // namespace control

@@ -29,7 +29,8 @@ DualActiveSet::DualActiveSet(int capacity)
 
 int DualActiveSet::Add(double lo, double hi, double rho, double sigma, double value) {
   const int j = size_++;
-  rows_[At(j)] = {.lo = lo, .hi = hi, .rho = rho, .sigma = rho < 0.0 ? kInfinity : sigma};
+  Row& row = rows_[At(j)] = {.lo = lo, .hi = hi, .rho = rho, .sigma = sigma};
+  if (rho < 0.0) row.sigma = kInfinity;
   g_0_[j] = g_[j] = value;
   lambda_[j] = 0.0;
   return j;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "control/lpv_affine_terms.hpp"
 
@@ -32,8 +31,8 @@ void LpvAffineMpc::Reset() {
   task_.Reset();
 }
 
-bool LpvAffineMpc::ShowQps(QpObserver observer) {
-  show_qp_ = std::move(observer);
+bool LpvAffineMpc::ShowQps(const QpObserver& observer) {
+  show_qp_ = observer;
   return true;
 }
 

@@ -39,7 +39,7 @@ class LpvAffineMpc final : public Controller {
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
   [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
   void Reset() override;
-  [[nodiscard]] bool ShowQps(QpObserver observer) override;
+  [[nodiscard]] bool ShowQps(const QpObserver& observer) override;
 
   // The QP of the last step, and its reference: for recording and for tests.
   [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <utility>
 
 #include "control/halfspace.hpp"
 
@@ -41,8 +40,8 @@ void LpvMpc::Reset() {
   has_guess_ = false;
 }
 
-bool LpvMpc::ShowQps(QpObserver observer) {
-  show_qp_ = std::move(observer);
+bool LpvMpc::ShowQps(const QpObserver& observer) {
+  show_qp_ = observer;
   return true;
 }
 

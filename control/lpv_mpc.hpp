@@ -37,7 +37,7 @@ class LpvMpc final : public Controller {
   void Reset() override;
   // The row that needs the largest slack if the rows that hold states (bounds, road, obstacles) are made soft.
   [[nodiscard]] std::optional<ConstraintViolation> Unsatisfied() const override;
-  [[nodiscard]] bool ShowQps(QpObserver observer) override;
+  [[nodiscard]] bool ShowQps(const QpObserver& observer) override;
 
   // The QP of the last step, for recording and for tests.
   [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }

@@ -49,9 +49,7 @@ namespace detail {
 template <int kSize>
 class LargestEntry {
  public:
-  template <typename Vector>
-  void Add(const Vector& vector) {
-    const Eigen::Matrix<double, kSize, 1> value = vector;
+  void Add(const Eigen::Matrix<double, kSize, 1>& value) {
     largest_ = largest_.cwiseMax(value.cwiseAbs());
     zero_ += 0.0 * value;
   }
