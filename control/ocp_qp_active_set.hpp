@@ -32,7 +32,8 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
     work.pi.setZero();
     work.known.fill(-1);
   }
-  bool violated = FindViolated(qp, guess);
+  // What needs few rows is done before a guess, which may be a bad one, has cost anything.
+  bool violated = FindViolated(qp, nullptr);
   for (int corrections = 0; corrections <= kMaxCorrections;) {
     if (time_left != nullptr && !(*time_left)()) {
       WriteActiveSet(qp);
