@@ -67,7 +67,7 @@ double OcpQpSolver<kNx, kNu>::SlackOf(const OcpQpRow<kNx, kNu>& row, double lamb
   return std::max(0.0, row.rho > 0.0 ? (std::abs(lambda) - row.sigma) / row.rho : violation);
 }
 
-// Of the rows that are violated at x, u and not known yet: those that press in the guess, and of the others the
+// Of the rows that are violated at x, u and not known yet: kBatch that press in the guess, and of the others the
 // kBatch that are violated most, into candidates_. True if there are any. Known rows are corrected in the dual.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
@@ -95,8 +95,7 @@ bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
     } else if (violation > tolerance && !row.weightless()) {
       row_error_ = std::max(row_error_, violation);
       const RowPlace place{.stage = i, .row = j, .violation = violation};
-      if (guess != nullptr && guess->stages[i].lambda[j].Presses() &&
-          static_cast<int>(candidates_.size()) < settings_.max_known_rows)
+      if (guess != nullptr && guess->stages[i].lambda[j].Presses() && candidates_.size() < kBatch)
         candidates_.push_back(place);
       else
         offer(place);

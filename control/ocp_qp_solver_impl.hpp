@@ -68,7 +68,7 @@ OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
       responses_(work_.size()),
       dual_(settings.max_known_rows) {
   known_.reserve(static_cast<std::size_t>(settings.max_known_rows));
-  candidates_.reserve(static_cast<std::size_t>(settings.max_known_rows) + kBatch);
+  candidates_.reserve(std::size_t{2} * kBatch);
 }
 
 template <int kNx, int kNu>
