@@ -85,7 +85,7 @@ bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
   detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
     const auto& work = work_[i];
     const double value = detail::RowValue(row, work.x, work.u);
-    const double violation = std::max(work.lo[j] - value, value - work.hi[j]);
+    const double violation = detail::Violation(work.lo[j], work.hi[j], value);
     if (work.known[j] >= 0) {
       dual_.Correct(work.known[j], value);
       const double lambda = dual_.lambda(work.known[j]);
@@ -227,7 +227,7 @@ void OcpQpSolver<kNx, kNu>::WriteActiveSet(const Qp& qp) {
     if (!row.soft()) continue;
     const double value = detail::RowValue(row, work.x, work.u);
     at.slack[place.row] =
-        SlackOf(row, lambda, std::max(work.lo[place.row] - value, value - work.hi[place.row]));
+        SlackOf(row, lambda, detail::Violation(work.lo[place.row], work.hi[place.row], value));
   }
 }
 

@@ -1,6 +1,7 @@
 // What the solver does with each row of an OcpQp, whichever way the row is written.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "control/ocp_qp.hpp"
@@ -24,6 +25,11 @@ double RowValue(const Row& row, const VectorX& x, const VectorU& u) {
   if (row.unit >= VectorX::RowsAtCompileTime) return u[row.unit - VectorX::RowsAtCompileTime];
   if (row.unit >= 0) return x[row.unit];
   return row.C.dot(x) + row.D.dot(u);
+}
+
+// By how much a value lies outside its bounds; negative inside.
+inline double Violation(double lo, double hi, double value) {
+  return std::max(lo - value, value - hi);
 }
 
 // [gradient_x; gradient_u] += factor [C; D].

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "control/ocp_qp_active_set.hpp"
+#include "control/ocp_qp_base.hpp"
 #include "control/ocp_qp_impl.hpp"
 #include "control/ocp_qp_newton.hpp"
 #include "control/ocp_qp_rows.hpp"
@@ -145,115 +146,6 @@ QpResult OcpQpSolver<kNx, kNu>::SolveByInteriorPoint(const Qp& qp, const Point* 
   return result;
 }
 
-// The optimum without rows. False if there is none that has its digits.
-template <int kNx, int kNu>
-bool OcpQpSolver<kNx, kNu>::SolveBase(const Qp& qp) {
-  const auto accurate = [&] {
-    FollowBase(qp);
-    double largest_pi = 0.0;
-    for (const auto& work : work_) largest_pi = std::max(largest_pi, work.base_pi.cwiseAbs().maxCoeff());
-    tolerance_ = settings_.tolerance + kRoundOff * largest_pi;
-    base_error_ = BaseError(qp);
-    return base_error_ <= tolerance_;
-  };
-  return (FactoriseBase(qp) && accurate()) || (FactoriseBaseSafely(qp) && accurate());
-}
-
-// The recursion in its usual form, P = Q + AᵀP'A − H_xu H_uu⁻¹ H_ux, in which P waits for K at its very end. It costs
-// half of Factorise, but its difference loses the digits of dynamics that grow by much over the horizon.
-template <int kNx, int kNu>
-bool OcpQpSolver<kNx, kNu>::FactoriseBase(const Qp& qp) {
-  using detail::Product;
-  const std::size_t N = work_.size() - 1;
-  riccati_[N].P = qp.stages[N].Q.asDiagonal();
-  sweep_[N].p = qp.stages[N].q;
-  for (std::size_t i = N; i-- > 0;) {
-    const auto& stage = qp.stages[i];
-    auto& riccati = riccati_[i];
-    const MatrixXX& P_next = riccati_[i + 1].P;
-    const MatrixXX A_transposed = stage.A.transpose();
-    const MatrixXU PB = Product(P_next, stage.B);
-    const MatrixXX PA = Product(P_next, stage.A);
-    MatrixUU H_uu = Product(stage.B.transpose(), PB);
-    H_uu.diagonal() += stage.R;
-    if (!riccati.FactoriseInput(H_uu)) return false;
-    const MatrixXU H_xu = Product(A_transposed, PB);
-    const MatrixXU Y = Product(H_xu, riccati.L_inverse.transpose());
-    const MatrixXU Y_D = Y * riccati.D_inverse.asDiagonal();
-    riccati.K_transposed = -Product(Y_D, riccati.L_inverse);
-    riccati.P = Product(A_transposed, PA);
-    riccati.P -= Product(Y_D, Y.transpose());
-    riccati.P.diagonal() += stage.Q;
-    const VectorX p_next = sweep_[i + 1].p + Product(P_next, stage.c);
-    const VectorU h_u = stage.r + Product(stage.B.transpose(), p_next);
-    sweep_[i].k = riccati.SolveInput(h_u);
-    sweep_[i].p = stage.q + Product(A_transposed, p_next) + Product(riccati.K_transposed, h_u);
-  }
-  return true;
-}
-
-template <int kNx, int kNu>
-bool OcpQpSolver<kNx, kNu>::FactoriseBaseSafely(const Qp& qp) {
-  using detail::Product;
-  if (!Factorise(qp, false)) return false;
-  sweep_.back().p = qp.stages.back().q;
-  for (std::size_t i = work_.size() - 1; i-- > 0;) {
-    const auto& stage = qp.stages[i];
-    const auto& riccati = riccati_[i];
-    const VectorX p_next = sweep_[i + 1].p + Product(riccati_[i + 1].P, stage.c);
-    sweep_[i].k = riccati.SolveInput((stage.r + Product(stage.B.transpose(), p_next)).eval());
-    sweep_[i].p = stage.q + Product(riccati.A_K_transposed, p_next) + Product(riccati.K_transposed, stage.r);
-  }
-  return true;
-}
-
-// x, u, π of the base.
-template <int kNx, int kNu>
-void OcpQpSolver<kNx, kNu>::FollowBase(const Qp& qp) {
-  using detail::Product;
-  const std::size_t N = work_.size() - 1;
-  work_[0].base_x = qp.x0;
-  work_[0].base_pi.setZero();
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto& stage = qp.stages[i];
-    auto& work = work_[i];
-    auto& next = work_[i + 1];
-    work.base_u = sweep_[i].k + Product(riccati_[i].K_transposed.transpose(), work.base_x);
-    next.base_x = stage.c + Product(stage.A, work.base_x) + Product(stage.B, work.base_u);
-    next.base_pi = sweep_[i + 1].p + Product(riccati_[i + 1].P, next.base_x);
-  }
-  work_[N].base_u.setZero();
-}
-
-// The largest entry of the gradient at the base.
-template <int kNx, int kNu>
-double OcpQpSolver<kNx, kNu>::BaseError(const Qp& qp) const {
-  detail::LargestEntry<kNx> error_x;
-  detail::LargestEntry<kNu> error_u;
-  const std::size_t N = work_.size() - 1;
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto& stage = qp.stages[i];
-    const auto& work = work_[i];
-    const VectorX& pi_next = work_[i + 1].base_pi;
-    error_u.Add(stage.R.cwiseProduct(work.base_u) + stage.r + detail::Product(stage.B.transpose(), pi_next));
-    if (i == 0) continue;  // x_0 is given: its gradient is free
-    error_x.Add(stage.Q.cwiseProduct(work.base_x) + stage.q - work.base_pi +
-                detail::Product(stage.A.transpose(), pi_next));
-  }
-  error_x.Add(qp.stages[N].Q.cwiseProduct(work_[N].base_x) + qp.stages[N].q - work_[N].base_pi);
-  return std::max(error_x.Value(), error_u.Value());
-}
-
-// The closed loop of the base's K, for the sweeps.
-template <int kNx, int kNu>
-void OcpQpSolver<kNx, kNu>::CloseLoop(const Qp& qp) {
-  for (std::size_t i = 0; i + 1 < riccati_.size(); ++i) {
-    const auto& stage = qp.stages[i];
-    riccati_[i].A_K_transposed =
-        (stage.A + detail::Product(stage.B, riccati_[i].K_transposed.transpose())).transpose();
-  }
-}
-
 // Bounds for deviations from the base. True if the base itself violates none.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
@@ -367,7 +259,7 @@ bool OcpQpSolver<kNx, kNu>::FillSlacks(const Qp& qp, Point& point) const {
   detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
     auto& at = point.stages[i];
     const double value = detail::RowValue(row, at.x, at.u);
-    const double beyond = std::max({0.0, row.lo - value, value - row.hi});
+    const double beyond = std::max(0.0, detail::Violation(row.lo, row.hi, value));
     at.slack[j] = row.soft() ? beyond : 0.0;
     if (!row.soft()) violation = std::max(violation, beyond);
   });
@@ -413,7 +305,7 @@ void OcpQpSolver<kNx, kNu>::WriteWeightlessSlacks(const Qp& qp) {
     if (!row.weightless()) return;
     auto& at = point_.stages[i];
     const double value = detail::RowValue(row, at.x, at.u);
-    at.slack[j] = std::max({0.0, row.lo - value, value - row.hi});
+    at.slack[j] = std::max(0.0, detail::Violation(row.lo, row.hi, value));
   });
 }
 

@@ -30,7 +30,7 @@ void OcpQpSolver<kNx, kNu>::StartRow(const OcpQpRow<kNx, kNu>& row, RowWork& wor
     work.epsilon = row.rho > 0.0 ? lambda / row.rho : 0.0;
     return;
   }
-  const double violation = std::max({0.0, work.lo.bound - value, value - work.hi.bound});
+  const double violation = std::max(0.0, detail::Violation(work.lo.bound, work.hi.bound, value));
   const double most = row.sigma + row.rho * violation - std::min(kLeastShare * row.sigma, mu / violation);
   if (lambda > most) {
     work.lo.lambda *= most / lambda;
@@ -80,7 +80,7 @@ bool OcpQpSolver<kNx, kNu>::StartFrom(const Qp& qp, const Point& guess) {
       const auto& row = qp.stages[i].rows[j];
       RowWork& at = work.rows[j];
       const double value = detail::RowValue(row, work.x, work.u);
-      const double violation = std::max(at.lo.bound - value, value - at.hi.bound);
+      const double violation = detail::Violation(at.lo.bound, at.hi.bound, value);
       if (!(violation - guess.stages[i].slack[j] <= kMaxViolation)) return false;
       StartRow(row, at, work.x, work.u, 0.02, kStartMu, guess.stages[i].lambda[j]);
     }

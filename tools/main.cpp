@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
   step_command->add_option("--scenario", bench.scenario, "scenario in TOML")->capture_default_str();
   step_command->add_option("--config", bench.config, "daemon's configuration, instead of the scenario's");
   step_command->add_option("--controller", bench.controller,
-                           "lpv-affine, lpv, lpv-standard, nmpc or nmpc-affine");
+                           controllers + ", instead of the configuration's");
   step_command->add_option("--horizon", bench.horizons, "N, one or several")->capture_default_str();
   step_command->add_option("--repeat", bench.repeat, "drives per horizon")
       ->check(CLI::Range(1, 1000))
