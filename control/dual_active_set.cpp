@@ -8,15 +8,17 @@ namespace control {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A pivot below this share of its diagonal entry is taken for round-off. Much more than that is: a ray that is none
-// proves nothing and does no harm, but a dependent row that joins L leaves λ without digits.
+// Far above round-off: a ray that is none proves nothing and does no harm, but a dependent row that joins L leaves λ
+// without digits.
 constexpr double kDependent = 1e-8;
+constexpr double kDependentAfterRestart = 1e-13;
 constexpr int kChangesPerRow = 10;
 
 }  // namespace
 
 DualActiveSet::DualActiveSet(int capacity)
     : capacity_(capacity),
+      dependent_(kDependent),
       rows_(At(capacity)),
       free_(At(capacity)),
       g_0_(capacity),
@@ -26,6 +28,21 @@ DualActiveSet::DualActiveSet(int capacity)
       L_(capacity, capacity),
       inverse_diagonal_(capacity),
       y_(capacity) {}
+
+void DualActiveSet::Clear() {
+  size_ = free_count_ = 0;
+  dependent_ = kDependent;
+}
+
+void DualActiveSet::Restart() {
+  free_count_ = 0;
+  dependent_ = kDependentAfterRestart;
+  for (int j = 0; j < size_; ++j) {
+    rows_[At(j)].piece = Piece::kRest;
+    rows_[At(j)].place = -1;
+    lambda_[j] = 0.0;
+  }
+}
 
 int DualActiveSet::Add(double lo, double hi, double rho, double sigma, double value) {
   const int j = size_++;
@@ -111,7 +128,7 @@ bool DualActiveSet::Append(int j) {
   }
   const double diagonal = M_(j, j) + row.Compliance();
   const double pivot = diagonal - square;
-  if (!(pivot > kDependent * diagonal)) return false;
+  if (!(pivot > dependent_ * diagonal)) return false;
   l[n] = std::sqrt(pivot);
   inverse_diagonal_[n] = 1.0 / l[n];
   free_[At(n)] = j;

@@ -35,7 +35,10 @@ class DualActiveSet {
 
   explicit DualActiveSet(int capacity);
 
-  void Clear() { size_ = free_count_ = 0; }
+  void Clear();
+  // λ = 0 again, and from now on rows that nearly depend on each other count as independent: their λ have few digits,
+  // but it is worth a try where the ray proves nothing.
+  void Restart();
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] bool full() const { return size_ == capacity_; }
 
@@ -89,6 +92,7 @@ class DualActiveSet {
   void MeetEnd(int j);
 
   int capacity_, size_ = 0, free_count_ = 0, changes_ = 0;
+  double dependent_;  // a pivot below this share of its diagonal entry is taken for round-off
   std::vector<Row> rows_;
   std::vector<int> free_;  // the free rows, in the order of L's
   Vector g_0_, g_, lambda_;

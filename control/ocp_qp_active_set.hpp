@@ -32,8 +32,9 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
     work.pi.setZero();
     work.known.fill(-1);
   }
-  // What needs few rows is done before a guess, which may be a bad one, has cost anything.
-  bool violated = FindViolated(qp, nullptr);
+  bool violated = FindViolated(qp, guess);
+  bool restarted = false;
+  double stationarity = 0.0;
   for (int corrections = 0; corrections <= kMaxCorrections;) {
     if (time_left != nullptr && !(*time_left)()) {
       WriteActiveSet(qp);
@@ -44,20 +45,37 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
     result.iterations += dual_.changes();
     if (solved == DualActiveSet::Result::kStuck) return std::nullopt;
     if (solved == DualActiveSet::Result::kInfeasible) {
-      if (!ProveByRay(qp)) return std::nullopt;
-      return SolverStatus::kInfeasible;
+      if (ProveByRay(qp)) return SolverStatus::kInfeasible;
+      if (restarted) return std::nullopt;
+      dual_.Restart();
+      restarted = true;
+      violated = false;
+      continue;
     }
     MoveToMultipliers(qp);
     violated = FindViolated(qp, guess);
     if (violated) continue;
-    result.kkt_residual = std::max({base_error_, StationarityError(qp), row_error_});
+    stationarity = StationarityError(qp);
+    result.kkt_residual = std::max({base_error_, stationarity, row_error_, complementarity_error_});
     if (result.kkt_residual <= tolerance_) {
       WriteActiveSet(qp);
       return SolverStatus::kSolved;
     }
-    ++corrections;  // FindViolated has told the dual the rows' true values
+    ++corrections;
+    for (int a = 0; a < dual_.size(); ++a) {
+      const RowPlace& place = known_[static_cast<std::size_t>(a)];
+      const auto& work = work_[place.stage];
+      dual_.Correct(a, detail::RowValue(qp.stages[place.stage].rows[place.row], work.x, work.u));
+    }
   }
-  return std::nullopt;
+  // Rows that nearly depend on each other can have a λ whose own round-off is above the tolerance.
+  double largest_lambda = 1.0;
+  for (int a = 0; a < dual_.size(); ++a) largest_lambda = std::max(largest_lambda, std::abs(dual_.lambda(a)));
+  stationarity -= kRoundOff * largest_lambda;
+  if (std::max({base_error_, stationarity, row_error_, complementarity_error_ / largest_lambda}) > tolerance_)
+    return std::nullopt;
+  WriteActiveSet(qp);
+  return SolverStatus::kSolved;
 }
 
 // The slack of a soft row with this multiplier and this violation.
@@ -67,83 +85,79 @@ double OcpQpSolver<kNx, kNu>::SlackOf(const OcpQpRow<kNx, kNu>& row, double lamb
   return std::max(0.0, row.rho > 0.0 ? (std::abs(lambda) - row.sigma) / row.rho : violation);
 }
 
-// Of the rows that are violated at x, u and not known yet: kBatch that press in the guess, and of the others the
-// kBatch that are violated most, into candidates_. True if there are any. Known rows are corrected in the dual.
+// Of the rows that are violated at x, u and not known yet, the kBatch that are violated most into candidates_, where a
+// row that presses in the guess counts the more. True if there are any.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
+  // A guess of the step before names the right rows mostly; one of long ago misleads. So it weighs, but not all.
+  constexpr double kTrust = 2.0;
   const double tolerance = RowTolerance();
-  std::array<RowPlace, kBatch> worst{};
-  std::size_t count = 0;
-  const auto offer = [&](const RowPlace& place) {  // keeps `worst` sorted
-    std::size_t k = count < worst.size() ? count++ : worst.size() - 1;
-    if (k == worst.size() - 1 && worst[k].violation >= place.violation) return;
-    for (; k > 0 && worst[k - 1].violation < place.violation; --k) worst[k] = worst[k - 1];
-    worst[k] = place;
+  const auto offer = [this](const RowPlace& place) {  // keeps candidates_ sorted
+    if (candidates_.size() < kBatch)
+      candidates_.push_back(place);
+    else if (candidates_.back().priority >= place.priority)
+      return;
+    std::size_t k = candidates_.size() - 1;
+    for (; k > 0 && candidates_[k - 1].priority < place.priority; --k) candidates_[k] = candidates_[k - 1];
+    candidates_[k] = place;
   };
   candidates_.clear();
-  row_error_ = 0.0;
+  row_error_ = complementarity_error_ = 0.0;
   detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
     const auto& work = work_[i];
     const double value = detail::RowValue(row, work.x, work.u);
     const double violation = detail::Violation(work.lo[j], work.hi[j], value);
     if (work.known[j] >= 0) {
-      dual_.Correct(work.known[j], value);
       const double lambda = dual_.lambda(work.known[j]);
       const double error = violation - SlackOf(row, lambda, violation);
       const double round_off = kRoundOff * std::max(1.0, std::abs(value));
-      row_error_ = std::max({row_error_, error, std::abs(lambda) * (std::abs(error) - round_off)});
+      row_error_ = std::max(row_error_, error);
+      complementarity_error_ =
+          std::max(complementarity_error_, std::abs(lambda) * (std::abs(error) - round_off));
     } else if (violation > tolerance && !row.weightless()) {
       row_error_ = std::max(row_error_, violation);
-      const RowPlace place{.stage = i, .row = j, .violation = violation};
-      if (guess != nullptr && guess->stages[i].lambda[j].Presses() && candidates_.size() < kBatch)
-        candidates_.push_back(place);
-      else
-        offer(place);
+      const bool pressed = guess != nullptr && guess->stages[i].lambda[j].Presses();
+      offer({.stage = i, .row = j, .priority = pressed ? kTrust * violation : violation});
     }
   });
-  candidates_.insert(candidates_.end(), worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(count));
   return !candidates_.empty();
 }
 
 // The candidates into the dual, with their columns of M. False if it is full.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::AddRows(const Qp& qp) {
-  if (dual_.size() + static_cast<int>(candidates_.size()) > settings_.max_known_rows) return false;
-  for (std::size_t begin = 0; begin < candidates_.size(); begin += kBatch) {
-    const std::size_t count = std::min(candidates_.size() - begin, static_cast<std::size_t>(kBatch));
-    std::size_t last = 0;
-    for (std::size_t b = 0; b < count; ++b) last = std::max(last, candidates_[begin + b].stage);
-    for (std::size_t i = 0; i <= last; ++i) {
-      responses_[i].p.setZero();
-      responses_[i].k.setZero();
+  const int first = dual_.size(), count = static_cast<int>(candidates_.size());
+  if (first + count > settings_.max_known_rows) return false;
+  std::size_t last = 0;
+  for (const RowPlace& place : candidates_) last = std::max(last, place.stage);
+  for (std::size_t i = 0; i <= last; ++i) {
+    responses_[i].p.setZero();
+    responses_[i].k.setZero();
+  }
+  for (int b = 0; b < count; ++b) {
+    const RowPlace& place = candidates_[static_cast<std::size_t>(b)];
+    const auto& row = qp.stages[place.stage].rows[place.row];
+    auto& work = work_[place.stage];
+    responses_[place.stage].p.col(b) += row.C;
+    responses_[place.stage].k.col(b) += row.D;
+    work.known[place.row] = dual_.Add(work.lo[place.row], work.hi[place.row], row.rho, row.sigma, 0.0);
+    known_.push_back(place);
+  }
+  detail::SweepRiccati(qp, riccati_, last, responses_);
+  for (int a = 0; a < dual_.size(); ++a) {
+    const RowPlace& place = known_[static_cast<std::size_t>(a)];
+    const auto& row = qp.stages[place.stage].rows[place.row];
+    const auto& response = responses_[place.stage];
+    Eigen::Matrix<double, 1, kBatch> value;
+    if (row.unit >= kNx) {
+      value = response.du.row(row.unit - kNx);
+    } else if (row.unit >= 0) {
+      value = response.dx.row(row.unit);
+    } else {
+      value =
+          detail::Product(row.C.transpose(), response.dx) + detail::Product(row.D.transpose(), response.du);
     }
-    const int first = dual_.size();
-    for (std::size_t b = 0; b < count; ++b) {
-      const RowPlace& place = candidates_[begin + b];
-      const auto& row = qp.stages[place.stage].rows[place.row];
-      auto& work = work_[place.stage];
-      responses_[place.stage].p.col(b) += row.C;
-      responses_[place.stage].k.col(b) += row.D;
-      work.known[place.row] = dual_.Add(work.lo[place.row], work.hi[place.row], row.rho, row.sigma, 0.0);
-      known_.push_back(place);
-    }
-    detail::SweepRiccati(qp, riccati_, last, responses_);
-    for (int a = 0; a < dual_.size(); ++a) {
-      const RowPlace& place = known_[static_cast<std::size_t>(a)];
-      const auto& row = qp.stages[place.stage].rows[place.row];
-      const auto& response = responses_[place.stage];
-      Eigen::Matrix<double, 1, kBatch> value;
-      if (row.unit >= kNx) {
-        value = response.du.row(row.unit - kNx);
-      } else if (row.unit >= 0) {
-        value = response.dx.row(row.unit);
-      } else {
-        value =
-            detail::Product(row.C.transpose(), response.dx) + detail::Product(row.D.transpose(), response.du);
-      }
-      for (std::size_t b = 0; b < count; ++b)
-        dual_.SetM(a, first + static_cast<int>(b), -value[static_cast<Eigen::Index>(b)]);
-    }
+    for (int b = 0; b < count; ++b) dual_.SetM(a, first + b, -value[b]);
   }
   return true;
 }
@@ -169,7 +183,7 @@ void OcpQpSolver<kNx, kNu>::MoveToMultipliers(const Qp& qp) {
   }
 }
 
-// The largest entry of the Lagrangian's gradient. Computes π.
+// The largest entry of the Lagrangian's gradient at x, u, λ. Computes π.
 template <int kNx, int kNu>
 double OcpQpSolver<kNx, kNu>::StationarityError(const Qp& qp) {
   const std::size_t N = work_.size() - 1;
@@ -185,16 +199,10 @@ double OcpQpSolver<kNx, kNu>::StationarityError(const Qp& qp) {
     auto& work = work_[place.stage];
     detail::AddRowGradient(qp.stages[place.stage].rows[place.row], dual_.lambda(a), work.r_x, work.r_u);
   }
-  detail::LargestEntry<kNx> error_x;
-  detail::LargestEntry<kNu> error_u;
-  for (std::size_t i = 0; i < N; ++i) {
-    const auto& work = work_[i];
-    const VectorX& pi_next = work_[i + 1].pi;
-    error_u.Add(work.r_u + detail::Product(qp.stages[i].B.transpose(), pi_next));
-    if (i > 0) error_x.Add(work.r_x + detail::Product(qp.stages[i].A.transpose(), pi_next));
-  }
-  error_x.Add(work_[N].r_x);
-  return std::max(error_x.Value(), error_u.Value());
+  return LargestGradient(
+      qp, [this](std::size_t i) -> const VectorX& { return work_[i].r_x; },
+      [this](std::size_t i) -> const VectorU& { return work_[i].r_u; },
+      [this](std::size_t i) -> const VectorX& { return work_[i].pi; });
 }
 
 template <int kNx, int kNu>

@@ -37,23 +37,23 @@ bool OcpQpSolver<kNx, kNu>::FactoriseBase(const Qp& qp) {
     const auto& stage = qp.stages[i];
     auto& riccati = riccati_[i];
     const MatrixXX& P_next = riccati_[i + 1].P;
-    const MatrixXX A_transposed = stage.A.transpose();
+    riccati.A_transposed = stage.A.transpose();
     const MatrixXU PB = Product(P_next, stage.B);
     const MatrixXX PA = Product(P_next, stage.A);
     MatrixUU H_uu = Product(stage.B.transpose(), PB);
     H_uu.diagonal() += stage.R;
     if (!riccati.FactoriseInput(H_uu)) return false;
-    const MatrixXU H_xu = Product(A_transposed, PB);
+    const MatrixXU H_xu = Product(riccati.A_transposed, PB);
     const MatrixXU Y = Product(H_xu, riccati.L_inverse.transpose());
     const MatrixXU Y_D = Y * riccati.D_inverse.asDiagonal();
     riccati.K_transposed = -Product(Y_D, riccati.L_inverse);
-    riccati.P = Product(A_transposed, PA);
+    riccati.P = Product(riccati.A_transposed, PA);
     riccati.P -= Product(Y_D, Y.transpose());
     riccati.P.diagonal() += stage.Q;
     const VectorX p_next = sweep_[i + 1].p + Product(P_next, stage.c);
     const VectorU h_u = stage.r + Product(stage.B.transpose(), p_next);
     sweep_[i].k = riccati.SolveInput(h_u);
-    sweep_[i].p = stage.q + Product(A_transposed, p_next) + Product(riccati.K_transposed, h_u);
+    sweep_[i].p = stage.q + Product(riccati.A_transposed, p_next) + Product(riccati.K_transposed, h_u);
   }
   return true;
 }
@@ -65,7 +65,8 @@ bool OcpQpSolver<kNx, kNu>::FactoriseBaseSafely(const Qp& qp) {
   sweep_.back().p = qp.stages.back().q;
   for (std::size_t i = work_.size() - 1; i-- > 0;) {
     const auto& stage = qp.stages[i];
-    const auto& riccati = riccati_[i];
+    auto& riccati = riccati_[i];
+    riccati.A_transposed = stage.A.transpose();
     const VectorX p_next = sweep_[i + 1].p + Product(riccati_[i + 1].P, stage.c);
     sweep_[i].k = riccati.SolveInput((stage.r + Product(stage.B.transpose(), p_next)).eval());
     sweep_[i].p = stage.q + Product(riccati.A_K_transposed, p_next) + Product(riccati.K_transposed, stage.r);
@@ -91,23 +92,34 @@ void OcpQpSolver<kNx, kNu>::FollowBase(const Qp& qp) {
   work_[N].base_u.setZero();
 }
 
-// The largest entry of the gradient at the base.
+// The largest entry of the Lagrangian's gradient, of which own_x(i) and own_u(i) are what stage i has but for the
+// dynamics of the stage after it, whose multiplier is pi(i + 1).
 template <int kNx, int kNu>
-double OcpQpSolver<kNx, kNu>::BaseError(const Qp& qp) const {
-  detail::LargestEntry<kNx> error_x;
-  detail::LargestEntry<kNu> error_u;
+template <typename OwnX, typename OwnU, typename Pi>
+double OcpQpSolver<kNx, kNu>::LargestGradient(const Qp& qp, OwnX&& own_x, OwnU&& own_u, Pi&& pi) const {
+  using detail::Product;
+  detail::LargestEntry<kNx> of_x;
+  detail::LargestEntry<kNu> of_u;
   const std::size_t N = work_.size() - 1;
   for (std::size_t i = 0; i < N; ++i) {
-    const auto& stage = qp.stages[i];
-    const auto& work = work_[i];
-    const VectorX& pi_next = work_[i + 1].base_pi;
-    error_u.Add(stage.R.cwiseProduct(work.base_u) + stage.r + detail::Product(stage.B.transpose(), pi_next));
-    if (i == 0) continue;  // x_0 is given: its gradient is free
-    error_x.Add(stage.Q.cwiseProduct(work.base_x) + stage.q - work.base_pi +
-                detail::Product(stage.A.transpose(), pi_next));
+    const VectorX& pi_next = pi(i + 1);
+    of_u.Add(own_u(i) + Product(qp.stages[i].B.transpose(), pi_next));
+    // x_0 is given: its gradient is free.
+    if (i > 0) of_x.Add(own_x(i) + Product(riccati_[i].A_transposed, pi_next));
   }
-  error_x.Add(qp.stages[N].Q.cwiseProduct(work_[N].base_x) + qp.stages[N].q - work_[N].base_pi);
-  return std::max(error_x.Value(), error_u.Value());
+  of_x.Add(own_x(N));
+  return std::max(of_x.Value(), of_u.Value());
+}
+
+template <int kNx, int kNu>
+double OcpQpSolver<kNx, kNu>::BaseError(const Qp& qp) const {
+  return LargestGradient(
+      qp,
+      [&](std::size_t i) -> VectorX {
+        return qp.stages[i].Q.cwiseProduct(work_[i].base_x) + qp.stages[i].q - work_[i].base_pi;
+      },
+      [&](std::size_t i) -> VectorU { return qp.stages[i].R.cwiseProduct(work_[i].base_u) + qp.stages[i].r; },
+      [&](std::size_t i) -> const VectorX& { return work_[i].base_pi; });
 }
 
 // The closed loop of the base's K, for the sweeps.

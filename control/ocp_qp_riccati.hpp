@@ -22,6 +22,7 @@ auto Product(const Left& left, const Right& right) {
 template <int kNx, int kNu>
 struct RiccatiStage {
   Eigen::Matrix<double, kNx, kNx> P;               // cost-to-go ½ xᵀP x
+  Eigen::Matrix<double, kNx, kNx> A_transposed;    // whose product needs no sums across a vector
   Eigen::Matrix<double, kNx, kNx> A_K_transposed;  // of A + B K
   Eigen::Matrix<double, kNx, kNu> K_transposed;    // u = k + K x
   // H_uu = L D Lᵀ, L with ones on its diagonal. Beside a w of 1e10 the inverse of H_uu itself has few digits.

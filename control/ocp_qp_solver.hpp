@@ -36,7 +36,8 @@ struct OcpQpKernels;
 
 struct QpSettings {
   // Largest KKT residual of a solved problem, absolute, in the problem's units; 1e-12 of the largest multiplier π of the
-  // problem without rows comes on top, for round-off, and λ times 1e-12 of its row's value.
+  // problem without rows comes on top, for round-off, and λ times 1e-12 of its row's value. Where rows that nearly
+  // depend on each other have a λ whose round-off is above that, complementarity counts relative to it.
   double tolerance = 1e-8;
   int max_iterations = 60;  // of the interior point
   int max_known_rows = 96;  // that the active set may look at; 0: the interior point alone
@@ -115,7 +116,7 @@ class OcpQpSolver {
   };
   struct RowPlace {
     std::size_t stage, row;
-    double violation;
+    double priority;
   };
   // The base, the optimum without rows, and deviations from it.
   struct StageWork {
@@ -130,6 +131,8 @@ class OcpQpSolver {
   bool FactoriseBase(const Qp& qp);
   bool FactoriseBaseSafely(const Qp& qp);
   void FollowBase(const Qp& qp);
+  template <typename OwnX, typename OwnU, typename Pi>
+  [[nodiscard]] double LargestGradient(const Qp& qp, OwnX&& own_x, OwnU&& own_u, Pi&& pi) const;
   [[nodiscard]] double BaseError(const Qp& qp) const;
   void CloseLoop(const Qp& qp);
   bool ShiftRows(const Qp& qp);
@@ -175,13 +178,13 @@ class OcpQpSolver {
   std::vector<detail::SweepStage<kNx, kNu, kBatch>> responses_;
   DualActiveSet dual_;
   std::vector<RowPlace> known_;       // the dual's rows
-  std::vector<RowPlace> candidates_;  // to be added to them
+  std::vector<RowPlace> candidates_;  // to be added to them, at most kBatch
 
   double tolerance_ = 0.0;   // with what round-off needs
   double base_error_ = 0.0;  // largest entry of the gradient at the base
   bool has_weightless_rows_ = false;
-  // Of the active set: the largest error of a row's condition of optimality at x, u and the dual's λ.
-  double row_error_ = 0.0;
+  // Of the active set, at x, u and the dual's λ: by how much a row is violated, and λ times its row's distance.
+  double row_error_ = 0.0, complementarity_error_ = 0.0;
   // Of the interior point.
   double mu_ = 0.0;                                // mean complementarity
   double longest_ = 0.0;                           // the step of this length brings the first t or λ to zero

@@ -69,7 +69,7 @@ OcpQpSolver<kNx, kNu>::OcpQpSolver(int horizon, const QpSettings& settings)
       responses_(work_.size()),
       dual_(settings.max_known_rows) {
   known_.reserve(static_cast<std::size_t>(settings.max_known_rows));
-  candidates_.reserve(std::size_t{2} * kBatch);
+  candidates_.reserve(kBatch);
 }
 
 template <int kNx, int kNu>
@@ -159,7 +159,7 @@ bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
     if (row.weightless())
       has_weightless_rows_ = true;
     else
-      violation = std::max({violation, work.lo[j], -work.hi[j]});
+      violation = std::max(violation, std::max(work.lo[j], -work.hi[j]));
   });
   return violation == 0.0;
 }

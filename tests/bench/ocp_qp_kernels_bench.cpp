@@ -28,13 +28,24 @@ struct OcpQpKernels {
   void DataCheck() { benchmark::DoNotOptimize(detail::HasFiniteData(qp)); }
   void BaseRecursion() { benchmark::DoNotOptimize(solver.FactoriseBase(qp)); }
   void RecursionWithRows() { benchmark::DoNotOptimize(solver.Factorise(qp, true)); }
-  void Sweep() { detail::SweepRiccati(qp, solver.riccati_, solver.work_.size() - 1, solver.sweep_); }
-  void FourSweeps() { detail::SweepRiccati(qp, solver.riccati_, solver.work_.size() - 1, solver.responses_); }
+  void Sweep() { SweepFromLastStage(solver.sweep_); }
+  void FourSweeps() { SweepFromLastStage(solver.responses_); }
   void RowAssembly() { benchmark::DoNotOptimize(solver.ShiftRows(qp)); }
   void RowScan() { benchmark::DoNotOptimize(solver.FindViolated(qp, nullptr)); }
   void NewtonStepWithItsLength() { solver.Step(qp, 0.1, false); }
   void Residuals() { benchmark::DoNotOptimize(solver.Residuals(qp)); }
   void KktCheck() { benchmark::DoNotOptimize(EvaluateKkt(qp, solver.solution()).Max()); }
+
+  // Of a gradient of ones in the last state alone.
+  template <typename SweepStages>
+  void SweepFromLastStage(SweepStages& stages) {
+    for (auto& stage : stages) {
+      stage.p.setZero();
+      stage.k.setZero();
+    }
+    stages.back().p.setOnes();
+    detail::SweepRiccati(qp, solver.riccati_, stages.size() - 1, stages);
+  }
 
   OcpQp<8, 2> qp;
   Solver solver;

@@ -173,6 +173,22 @@ TEST(DualActiveSet, RayProvesThatRowsContradictEachOther) {
   EXPECT_GT(proven, 100);
 }
 
+TEST(DualActiveSet, RestartSolvesRowsThatNearlyDependOnEachOther) {
+  const Problem problem{.M = Eigen::Matrix2d{{1.0, 1.0}, {1.0, 1.0 + 1e-10}},
+                        .rows = {{.lo = 0.0, .hi = 0.0, .rho = -1.0, .sigma = 0.0, .value = 1.0},
+                                 {.lo = 0.0, .hi = 0.0, .rho = -1.0, .sigma = 0.0, .value = 1.0 + 1e-6}}};
+  DualActiveSet dual(2);
+  Give(problem, dual);
+  ASSERT_EQ(dual.Solve(kTolerance), Result::kInfeasible);
+  dual.Restart();
+  ASSERT_EQ(dual.Solve(kTolerance), Result::kSolved);
+  EXPECT_NEAR(dual.lambda(1), 1e4, 1.0);
+  ExpectOptimal(problem, Multipliers(dual), 0);
+  // The next problem is none of that.
+  Give(problem, dual);
+  EXPECT_EQ(dual.Solve(kTolerance), Result::kInfeasible);
+}
+
 TEST(DualActiveSet, RowThatNothingMovesIsContradictedOrGivesWay) {
   DualActiveSet dual(1);
   Problem problem{.M = Eigen::MatrixXd::Zero(1, 1),

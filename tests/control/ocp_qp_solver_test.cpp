@@ -352,6 +352,24 @@ TEST_P(OcpQpSolverBy, EqualBoundsAreAnEquation) {
   }
 }
 
+TEST_P(OcpQpSolverBy, EquationsThatNearlyDependOnEachOtherAreSolved) {
+  using VectorU = Eigen::Vector2d;
+  OcpQpSolver<1, 2> solver(1, settings_);
+  for (const double gap : {1e-3, 1e-4, 1e-5}) {
+    OcpQp<1, 2> qp(1);
+    auto& stage = qp.stages[0];
+    stage.R.setOnes();
+    const Eigen::Matrix<double, 1, 1> zero(0.0);
+    ASSERT_TRUE(stage.AddRow(zero, VectorU(1.0, 1.0), 1.0, 1.0));
+    ASSERT_TRUE(stage.AddRow(zero, VectorU(1.0, 1.0 + gap), 1.0 + 2.0 * gap, 1.0 + 2.0 * gap));
+    const QpResult result = solver.Solve(qp);
+    ASSERT_EQ(result.status, SolverStatus::kSolved) << gap;
+    EXPECT_EQ(result.method, GetParam() > 0 ? QpMethod::kActiveSet : QpMethod::kInteriorPoint) << gap;
+    EXPECT_LT(EvaluateKkt(qp, solver.solution()).rows, 1e-8) << gap;
+    EXPECT_LT((solver.solution().stages[0].u - VectorU(-1.0, 2.0)).norm(), 3e-8 / gap) << gap;
+  }
+}
+
 TEST_P(OcpQpSolverBy, ContradictionIsProven) {
   OcpQpSolver<1, 1> solver(1, settings_);
   const auto expect_proof = [&](const OcpQp<1, 1>& qp, const char* what) {
