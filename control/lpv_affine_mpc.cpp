@@ -97,7 +97,7 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
       break;
     }
     plan_.status = result.status;
-    has_guess_ = result.method != QpMethod::kBase;  // which has no multipliers
+    has_guess_ = result.MakesGuess();
     if (has_guess_) guess_ = solver_.solution();
     const double change = ReadPlan();
     prediction_.Take(plan_);

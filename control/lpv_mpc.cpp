@@ -68,6 +68,11 @@ const Plan& LpvMpc::Step(const ControllerInput& input) {
   plan_.status = result.status;
   plan_.iterations = result.iterations;
   ReadPlan(input);
+  has_guess_ = result.MakesGuess();
+  if (has_guess_) {
+    guess_ = solver_.solution();
+    guess_.Shift();
+  }
   PredictNext();
   return plan_;
 }
@@ -214,13 +219,10 @@ void LpvMpc::MeasureTrustRegion() {
 // ẑ_{i|k+1} = z*_{i+1|k}, û likewise (paper, eq:sch_pred). Without a plan the last prediction moves on by one
 // step.
 void LpvMpc::PredictNext() {
-  has_guess_ = plan_.status == SolverStatus::kSolved;
-  if (has_guess_) {
+  if (plan_.status == SolverStatus::kSolved) {
     std::ranges::copy(plan_.z, predicted_z_.begin());
     std::ranges::copy(plan_.u, predicted_u_.begin());
     has_prediction_ = true;
-    guess_ = solver_.solution();
-    guess_.Shift();
   }
   std::shift_left(predicted_z_.begin(), predicted_z_.end(), 1);
   std::shift_left(predicted_u_.begin(), predicted_u_.end(), 1);

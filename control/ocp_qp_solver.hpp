@@ -54,6 +54,11 @@ struct QpResult {
   int iterations = 0;                 // changes of the active set, or iterations of the interior point
   double kkt_residual = 0.0;
   bool feasible = false;  // solution() satisfies the dynamics and the hard rows
+
+  // solution() tells the next problem something: a base has no multipliers.
+  [[nodiscard]] bool MakesGuess() const {
+    return status == SolverStatus::kSolved && method != QpMethod::kBase;
+  }
 };
 
 template <int kNx, int kNu>
