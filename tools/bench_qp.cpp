@@ -84,7 +84,7 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
     } else {
       ++line.failed;
     }
-    series = solved ? named.series : "";
+    series = result.MakesGuess() ? named.series : "";
   }
   return line;
 }
