@@ -26,7 +26,8 @@ struct ControllerInput {
   std::span<const State> reference;  // z_ref, steps 0..N: N + 1 states
   RoadBounds road;                   // relative to the reference
   std::span<const Obstacle> obstacles;
-  // Asked before an iteration that would improve the plan but is not needed: false ends them. None: there is time.
+  // Asked before an iteration that would improve the plan but is not needed, and within it: false ends it, and leaves the
+  // plan before it. None: there is time.
   const std::function<bool()>* time_left = nullptr;
 };
 

@@ -85,11 +85,13 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   const int most = std::max(least, settings_.iterations);
   prediction_.Begin(task_, model_);
   for (int k = 0; k < most; ++k) {
-    if (k >= least && input.time_left != nullptr && !(*input.time_left)()) break;
+    const TimeLeft* time_left = k < least ? nullptr : input.time_left;
+    if (time_left != nullptr && !(*time_left)()) break;
     // An obstacle that finds no room in the problem must not be ignored.
     const bool built = BuildQp(input.u_previous);
     if (built && show_qp_) show_qp_(qp_);
-    const QpResult result = built ? solver_.Solve(qp_, has_guess_ ? &guess_ : nullptr) : QpResult{};
+    const QpResult result =
+        built ? solver_.Solve(qp_, has_guess_ ? &guess_ : nullptr, time_left) : QpResult{};
     plan_.iterations += result.iterations;
     if (result.status != SolverStatus::kSolved) {
       if (k == 0) plan_.status = result.status;

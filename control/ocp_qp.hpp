@@ -85,6 +85,10 @@ struct RowMultiplier {
   double lo = 0.0;
   double hi = 0.0;
 
+  // Of λ_hi − λ_lo, where one of them is zero.
+  [[nodiscard]] static RowMultiplier OfDifference(double lambda) {
+    return {.lo = std::max(0.0, -lambda), .hi = std::max(0.0, lambda)};
+  }
   // More than an interior point leaves of a multiplier whose row does not.
   [[nodiscard]] bool Presses() const { return std::max(lo, hi) > 1e-6; }
 };

@@ -62,11 +62,7 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
       return SolverStatus::kSolved;
     }
     ++corrections;
-    for (int a = 0; a < dual_.size(); ++a) {
-      const RowPlace& place = known_[static_cast<std::size_t>(a)];
-      const auto& work = work_[place.stage];
-      dual_.Correct(a, detail::RowValue(qp.stages[place.stage].rows[place.row], work.x, work.u));
-    }
+    CorrectValues(qp);
   }
   // Rows that nearly depend on each other can have a λ whose own round-off is above the tolerance.
   double largest_lambda = 1.0;
@@ -183,6 +179,16 @@ void OcpQpSolver<kNx, kNu>::MoveToMultipliers(const Qp& qp) {
   }
 }
 
+// Tells the dual the rows' values at x, u, which its M has but to round-off.
+template <int kNx, int kNu>
+void OcpQpSolver<kNx, kNu>::CorrectValues(const Qp& qp) {
+  for (int a = 0; a < dual_.size(); ++a) {
+    const RowPlace& place = known_[static_cast<std::size_t>(a)];
+    const auto& work = work_[place.stage];
+    dual_.Correct(a, detail::RowValue(qp.stages[place.stage].rows[place.row], work.x, work.u));
+  }
+}
+
 // The largest entry of the Lagrangian's gradient at x, u, λ. Computes π.
 template <int kNx, int kNu>
 double OcpQpSolver<kNx, kNu>::StationarityError(const Qp& qp) {
@@ -209,8 +215,7 @@ template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::ProveByRay(const Qp& qp) {
   for (int a = 0; a < dual_.size(); ++a) {
     const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    const double ray = dual_.ray(a);
-    point_.stages[place.stage].lambda[place.row] = {.lo = std::max(0.0, -ray), .hi = std::max(0.0, ray)};
+    point_.stages[place.stage].lambda[place.row] = RowMultiplier::OfDifference(dual_.ray(a));
   }
   return ProvesInfeasible(qp, point_);
 }
@@ -231,7 +236,7 @@ void OcpQpSolver<kNx, kNu>::WriteActiveSet(const Qp& qp) {
     const auto& work = work_[place.stage];
     auto& at = point_.stages[place.stage];
     const double lambda = dual_.lambda(a);
-    at.lambda[place.row] = {.lo = std::max(0.0, -lambda), .hi = std::max(0.0, lambda)};
+    at.lambda[place.row] = RowMultiplier::OfDifference(lambda);
     if (!row.soft()) continue;
     const double value = detail::RowValue(row, work.x, work.u);
     at.slack[place.row] =

@@ -45,7 +45,7 @@ struct QpSettings {
 
 enum class QpMethod : std::uint8_t { kBase, kActiveSet, kInteriorPoint };
 
-// Asked before each iteration; false ends the solve. The caller's, as time is.
+// Asked before each iteration, and each time the active set takes rows; false ends the solve. The caller's, as time is.
 using TimeLeft = std::function<bool()>;
 
 struct QpResult {
@@ -148,6 +148,7 @@ class OcpQpSolver {
   bool FindViolated(const Qp& qp, const Point* guess);
   bool AddRows(const Qp& qp);
   void MoveToMultipliers(const Qp& qp);
+  void CorrectValues(const Qp& qp);
   double StationarityError(const Qp& qp);
   bool ProveByRay(const Qp& qp);
   void WriteActiveSet(const Qp& qp);

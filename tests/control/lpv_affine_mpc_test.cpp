@@ -93,27 +93,39 @@ TEST(LpvAffineMpc, ResetForgetsTheLastPlanAndTheSides) {
   EXPECT_NE(loop.Ask().u, first.u) << "the second step has a plan to start from";
 }
 
-TEST(LpvAffineMpc, TimeThatIsUpEndsTheIterationsButNotTheFirst) {
+// The plan of the second step, with so many iterations at most, for each of which the time is asked for.
+std::vector<Input> PlanWithin(int iterations, const std::function<bool()>& time_left) {
   LpvAffineSettings settings;
-  settings.iterations = 4;
+  settings.iterations = iterations;
   settings.converged = 0.0;
-  int asked = 0;
-  int granted = 0;
-  const std::function<bool()> time_left = [&] { return asked++ < granted; };
-  int solver_iterations = 0;
-  for (granted = 0; granted < 3; ++granted) {
-    BusyRoad loop(settings);
-    loop.PlaceAt(40.0, 9.0, 0.5);
-    loop.Drive(loop.Ask());
-    ControllerInput input = loop.Asked();
-    input.time_left = &time_left;
-    asked = 0;
-    const Plan& plan = loop.mpc().Step(input);
-    EXPECT_EQ(plan.status, SolverStatus::kSolved);
-    EXPECT_EQ(asked, granted + 1);
-    EXPECT_GT(plan.iterations, solver_iterations) << "each time that is granted is another QP";
-    solver_iterations = plan.iterations;
+  BusyRoad loop(settings);
+  loop.PlaceAt(40.0, 9.0, 0.5);
+  loop.Drive(loop.Ask());
+  ControllerInput input = loop.Asked();
+  input.time_left = &time_left;
+  const Plan& plan = loop.mpc().Step(input);
+  EXPECT_EQ(plan.status, SolverStatus::kSolved);
+  return plan.u;
+}
+
+TEST(LpvAffineMpc, TimeThatIsUpLeavesThePlanOfTheLastIterationThatWasFinished) {
+  constexpr int kIterations = 4;
+  std::vector<std::vector<Input>> finished;
+  for (int count = 1; count <= kIterations; ++count) {
+    finished.push_back(PlanWithin(count, [] { return true; }));
+    EXPECT_EQ(std::ranges::count(finished, finished.back()), 1) << "each iteration changes the plan";
   }
+  int granted = 0, asked = 0, before = 0;
+  for (; before < kIterations - 1; ++granted) {
+    asked = 0;
+    const std::vector<Input> plan = PlanWithin(kIterations, [&] { return asked++ < granted; });
+    const int index = static_cast<int>(std::ranges::find(finished, plan) - finished.begin());
+    ASSERT_LT(index, kIterations) << "a plan that was not finished, with " << granted;
+    EXPECT_GE(index, before);
+    EXPECT_TRUE(granted > 0 || index == 0);
+    before = index;
+  }
+  EXPECT_GT(granted, kIterations) << "the time is asked for within an iteration, too";
 }
 
 TEST(LpvAffineMpc, IterationsConverge) {
