@@ -40,7 +40,6 @@ class DualActiveSet {
   // but it is worth a try where the ray proves nothing.
   void Restart();
   [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] bool full() const { return size_ == capacity_; }
 
   // Another row with λ = 0, and its index. `value` is its entry of g_0; its entries of M are to be given by
   // SetM before anything else is asked. ρ < 0: hard.
@@ -50,7 +49,7 @@ class DualActiveSet {
   Result Solve(double tolerance);
 
   [[nodiscard]] double lambda(int j) const { return lambda_[j]; }
-  // g as M has it; Correct replaces it by a better figure, for the next Solve.
+  // A better figure of the row's value at λ than M gives, for the next Solve.
   void Correct(int j, double value);
   [[nodiscard]] double ray(int j) const { return rows_[At(j)].direction; }
   [[nodiscard]] int changes() const { return changes_; }

@@ -17,7 +17,8 @@
 
 namespace control {
 
-// Nothing if the interior point has to do it: too many rows, or round-off.
+// Nothing if the interior point has to do it: too many rows, round-off, or a soft row that presses on both of its bounds,
+// which lo > hi alone can bring about (the dual has one λ for the two).
 template <int kNx, int kNu>
 std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp, const Point* guess,
                                                                     const TimeLeft* time_left,
@@ -35,6 +36,10 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
   bool violated = FindViolated(qp, guess);
   bool restarted = false;
   double stationarity = 0.0;
+  const auto within_tolerance = [this](double gradient, double complementarity) {
+    return row_error_ <= settings_.tolerance &&
+           std::max({base_error_, gradient, complementarity}) <= tolerance_;
+  };
   for (int corrections = 0; corrections <= kMaxCorrections;) {
     if (time_left != nullptr && !(*time_left)()) {
       WriteActiveSet(qp);
@@ -57,19 +62,17 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
     if (violated) continue;
     stationarity = StationarityError(qp);
     result.kkt_residual = std::max({base_error_, stationarity, row_error_, complementarity_error_});
-    if (result.kkt_residual <= tolerance_) {
+    if (within_tolerance(stationarity, complementarity_error_)) {
       WriteActiveSet(qp);
       return SolverStatus::kSolved;
     }
     ++corrections;
     CorrectValues(qp);
   }
-  // Rows that nearly depend on each other can have a λ whose own round-off is above the tolerance.
+  // Rows that nearly depend on each other can have a λ whose round-off is above the tolerance.
   double largest_lambda = 1.0;
   for (int a = 0; a < dual_.size(); ++a) largest_lambda = std::max(largest_lambda, std::abs(dual_.lambda(a)));
-  stationarity -= kRoundOff * largest_lambda;
-  if (std::max({base_error_, stationarity, row_error_, complementarity_error_ / largest_lambda}) > tolerance_)
-    return std::nullopt;
+  if (!within_tolerance(stationarity - kRoundOff * largest_lambda, distance_error_)) return std::nullopt;
   WriteActiveSet(qp);
   return SolverStatus::kSolved;
 }
@@ -78,7 +81,8 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
 template <int kNx, int kNu>
 double OcpQpSolver<kNx, kNu>::SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation) {
   if (!row.soft()) return 0.0;
-  return std::max(0.0, row.rho > 0.0 ? (std::abs(lambda) - row.sigma) / row.rho : violation);
+  if (row.rho > 0.0) return std::max(0.0, (std::abs(lambda) - row.sigma) / row.rho);
+  return std::abs(lambda) < row.sigma ? 0.0 : std::max(0.0, violation);
 }
 
 // Of the rows that are violated at x, u and not known yet, the kBatch that are violated most into candidates_, where a
@@ -98,20 +102,24 @@ bool OcpQpSolver<kNx, kNu>::FindViolated(const Qp& qp, const Point* guess) {
     candidates_[k] = place;
   };
   candidates_.clear();
-  row_error_ = complementarity_error_ = 0.0;
+  row_error_ = complementarity_error_ = distance_error_ = 0.0;
   detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
     const auto& work = work_[i];
     const double value = detail::RowValue(row, work.x, work.u);
     const double violation = detail::Violation(work.lo[j], work.hi[j], value);
     if (work.known[j] >= 0) {
       const double lambda = dual_.lambda(work.known[j]);
-      const double error = violation - SlackOf(row, lambda, violation);
+      const double slack = SlackOf(row, lambda, violation);
+      if (!(violation <= slack)) detail::Raise(row_error_, violation - slack);
+      if (lambda == 0.0) return;
+      const double beyond =
+          lambda > 0.0 ? value - work.hi[j] : work.lo[j] - value;  // the side that λ presses on
       const double round_off = kRoundOff * std::max(1.0, std::abs(value));
-      row_error_ = std::max(row_error_, error);
-      complementarity_error_ =
-          std::max(complementarity_error_, std::abs(lambda) * (std::abs(error) - round_off));
-    } else if (violation > tolerance && !row.weightless()) {
-      row_error_ = std::max(row_error_, violation);
+      const double distance = std::max(std::abs(beyond - slack) - round_off, 0.0);
+      detail::Raise(complementarity_error_, lambda * distance);
+      detail::Raise(distance_error_, std::min(std::abs(lambda), 1.0) * distance);
+    } else if (!(violation <= tolerance) && !row.weightless()) {
+      detail::Raise(row_error_, violation);
       const bool pressed = guess != nullptr && guess->stages[i].lambda[j].Presses();
       offer({.stage = i, .row = j, .priority = pressed ? kTrust * violation : violation});
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/ocp_qp.hpp"
+#include "control/ocp_qp_rows.hpp"
 
 namespace control {
 
@@ -45,6 +46,11 @@ bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
 
 namespace detail {
 
+// largest = max(largest, |value|), where what is not a number counts as infinite.
+inline void Raise(double& largest, double value) {
+  if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
+}
+
 // The largest absolute value among vectors, kNoBound if one of them holds a value that is not a number.
 template <int kSize>
 class LargestEntry {
@@ -67,9 +73,7 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
   KktResidual residual;
   detail::LargestEntry<kNx> stationarity_x, dynamics;
   detail::LargestEntry<kNu> stationarity_u;
-  const auto raise = [](double& largest, double value) {
-    if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
-  };
+  using detail::Raise;
   const int N = qp.horizon();
   dynamics.Add(point.stages[0].x - qp.x0);
   for (int i = 0; i <= N; ++i) {
@@ -89,25 +93,26 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
       const RowMultiplier& lambda = at.lambda[j];
       const double epsilon = row.soft() ? at.slack[j] : 0.0;
       const double value = row.C.dot(at.x) + (terminal ? 0.0 : row.D.dot(at.u));
-      raise(residual.rows, std::min(0.0, std::min(value - row.lo, row.hi - value) + epsilon));
+      const double violation = detail::Violation(row.lo, row.hi, value) - epsilon;
+      if (!(violation <= 0.0)) Raise(residual.rows, violation);
       if (lambda.lo == 0.0 && lambda.hi == 0.0 && epsilon == 0.0) continue;
       gradient_x -= row.C * (lambda.lo - lambda.hi);
       gradient_u -= row.D * (lambda.lo - lambda.hi);
       if (row.exact()) {
         const double lambda_epsilon = row.rho * epsilon + row.sigma - lambda.lo - lambda.hi;
-        raise(residual.rows, std::min(0.0, epsilon));
-        raise(residual.multipliers, std::min(0.0, lambda_epsilon));
-        raise(residual.complementarity, lambda_epsilon * epsilon);
+        Raise(residual.rows, std::min(0.0, epsilon));
+        Raise(residual.multipliers, std::min(0.0, lambda_epsilon));
+        Raise(residual.complementarity, lambda_epsilon * epsilon);
       } else if (row.soft()) {
-        raise(residual.stationarity, row.rho * epsilon - lambda.lo - lambda.hi);
+        Raise(residual.stationarity, row.rho * epsilon - lambda.lo - lambda.hi);
       }
       const auto side = [&](bool present, double multiplier, double distance) {
         if (present)
-          raise(residual.complementarity, multiplier * (distance + epsilon));
+          Raise(residual.complementarity, multiplier * (distance + epsilon));
         else
-          raise(residual.multipliers, multiplier);
+          Raise(residual.multipliers, multiplier);
       };
-      raise(residual.multipliers, std::min({0.0, lambda.lo, lambda.hi}));
+      Raise(residual.multipliers, std::min({0.0, lambda.lo, lambda.hi}));
       side(row.has_lo(), lambda.lo, value - row.lo);
       side(row.has_hi(), lambda.hi, row.hi - value);
     }
@@ -138,33 +143,34 @@ double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point
 // Any feasible trajectory has 0 ≤ Σ λ_lo (C x + D u − lo) + λ_hi (hi − C x − D u) = Σ (dᵢᵀxᵢ + eᵢᵀuᵢ) +
 // constant with d = Σ_j C_j (λ_lo − λ_hi), e likewise. The adjoint π_N = d_N, π_i = d_i + Aᵀ π_{i+1} turns it
 // into constant + π_0ᵀ x_0 + Σ π_{i+1}ᵀ c_i + Σ (e_i + Bᵀ π_{i+1})ᵀ u_i, whose maximum over the inputs'
-// bounds is summed here.
+// bounds is summed here. An input without a bound must have no part in it, but for the round-off of its terms.
 template <int kNx, int kNu>
 bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
-  constexpr double kRoundOff = 1e-9;
+  constexpr double kRoundOff = 1e-9, kRoundOffOfCoefficient = 1e-12;
   double sum = 0.0;
   double magnitude = 0.0;
-  double largest_lambda = 0.0;
   const auto add = [&](double term) {
     sum += term;
     magnitude += std::abs(term);
   };
-  Eigen::Matrix<double, kNx, 1> pi = Eigen::Matrix<double, kNx, 1>::Zero();
+  using VectorX = Eigen::Matrix<double, kNx, 1>;
+  using VectorU = Eigen::Matrix<double, kNu, 1>;
+  VectorX pi = VectorX::Zero(), pi_terms = VectorX::Zero();  // and the sum of its terms' absolute values
   for (std::size_t i = qp.stages.size(); i-- > 0;) {
     const auto& stage = qp.stages[i];
     const bool terminal = i + 1 == qp.stages.size();
-    Eigen::Matrix<double, kNx, 1> d = Eigen::Matrix<double, kNx, 1>::Zero();
-    Eigen::Matrix<double, kNu, 1> e = Eigen::Matrix<double, kNu, 1>::Zero();
-    Eigen::Matrix<double, kNu, 1> u_min = Eigen::Matrix<double, kNu, 1>::Constant(-kNoBound);
-    Eigen::Matrix<double, kNu, 1> u_max = Eigen::Matrix<double, kNu, 1>::Constant(kNoBound);
+    VectorX d = VectorX::Zero(), d_terms = VectorX::Zero();
+    VectorU e = VectorU::Zero(), e_terms = VectorU::Zero();
+    VectorU u_min = VectorU::Constant(-kNoBound), u_max = VectorU::Constant(kNoBound);
     for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
       const auto& row = stage.rows[j];
       if (row.soft()) continue;
       const double lambda_lo = row.has_lo() ? std::max(0.0, point.stages[i].lambda[j].lo) : 0.0;
       const double lambda_hi = row.has_hi() ? std::max(0.0, point.stages[i].lambda[j].hi) : 0.0;
-      largest_lambda = std::max({largest_lambda, lambda_lo, lambda_hi});
       d += row.C * (lambda_lo - lambda_hi);
       e += row.D * (lambda_lo - lambda_hi);
+      d_terms += row.C.cwiseAbs() * (lambda_lo + lambda_hi);
+      e_terms += row.D.cwiseAbs() * (lambda_lo + lambda_hi);
       if (row.has_lo()) add(-lambda_lo * row.lo);
       if (row.has_hi()) add(lambda_hi * row.hi);
       if (!terminal && row.unit >= kNx) {
@@ -175,18 +181,20 @@ bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& poi
     if (!terminal) {
       add(pi.dot(stage.c));
       e += stage.B.transpose() * pi;
+      e_terms += stage.B.cwiseAbs().transpose() * pi_terms;
       for (int k = 0; k < kNu; ++k) {
         const double worst = std::max(e[k] * u_min[k], e[k] * u_max[k]);
         if (std::isfinite(worst)) {
           add(worst);
-        } else if (std::abs(e[k]) > kRoundOff * largest_lambda) {
+        } else if (std::abs(e[k]) > kRoundOffOfCoefficient * e_terms[k]) {
           return false;
         }
       }
-      pi = (d + stage.A.transpose() * pi).eval();
-    } else {
-      pi = d;
+      d += stage.A.transpose() * pi;
+      d_terms += stage.A.cwiseAbs().transpose() * pi_terms;
     }
+    pi = d;
+    pi_terms = d_terms;
   }
   add(pi.dot(qp.x0));
   return sum < -kRoundOff * magnitude;

@@ -1,5 +1,5 @@
 // The Riccati recursion's results and its sweeps: an unconstrained linear-quadratic problem once its matrices
-// are factorised (ocp_qp_newton.hpp), for one gradient or for several side by side.
+// are factorised (ocp_qp_base.hpp, ocp_qp_newton.hpp), for one gradient or for several side by side.
 #pragma once
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 //   1. The optimum without rows, by one Riccati recursion: the base. If it violates no row, it is the answer.
 //   2. A dual active set on the rows that matter, whose columns are sweeps of the base's recursion: O(N) for each row
 //      (ocp_qp_active_set.hpp, dual_active_set.hpp).
-//   3. Where that knows too many rows, or loses its digits, a primal-dual interior point with Mehrotra's predictor and
+//   3. Where that knows too many rows or loses its digits, and where a soft row presses on both of its bounds, a primal-dual interior point with Mehrotra's predictor and
 //      corrector, whose Newton systems are Riccati recursions: O(N) for each iteration (ocp_qp_newton.hpp).
 //
 // Sources: C. V. Rao, S. J. Wright, J. B. Rawlings, Application of interior-point methods to model predictive control
@@ -35,9 +35,10 @@ namespace control {
 struct OcpQpKernels;
 
 struct QpSettings {
-  // Largest KKT residual of a solved problem, absolute, in the problem's units; 1e-12 of the largest multiplier π of the
-  // problem without rows comes on top, for round-off, and λ times 1e-12 of its row's value. Where rows that nearly
-  // depend on each other have a λ whose round-off is above that, complementarity counts relative to it.
+  // Largest KKT residual of a solved problem, absolute, in the problem's units. On stationarity and complementarity
+  // comes on top, for round-off, 1e-12 of the largest multiplier π of the problem without rows, and λ times 1e-12 of its
+  // row's value. Where rows that nearly depend on each other have a λ whose round-off is above that: 1e-12 of the largest
+  // λ on stationarity, and complementarity counts relative to its λ.
   double tolerance = 1e-8;
   int max_iterations = 60;  // of the interior point
   int max_known_rows = 96;  // that the active set may look at; 0: the interior point alone
@@ -52,8 +53,8 @@ struct QpResult {
   SolverStatus status = SolverStatus::kNumericalFailure;
   QpMethod method = QpMethod::kBase;  // that gave the answer
   int iterations = 0;                 // changes of the active set, or iterations of the interior point
-  double kkt_residual = 0.0;
-  bool feasible = false;  // solution() satisfies the dynamics and the hard rows
+  double kkt_residual = 0.0;          // of a solved problem
+  bool feasible = false;              // solution() satisfies the dynamics and the hard rows
 
   // solution() tells the next problem something: a base has no multipliers.
   [[nodiscard]] bool MakesGuess() const {
@@ -67,9 +68,9 @@ class OcpQpSolver {
   using Qp = OcpQp<kNx, kNu>;
   using Point = OcpQpPoint<kNx, kNu>;
 
-  explicit OcpQpSolver(int horizon, const QpSettings& settings = {});
+  explicit OcpQpSolver(int horizon, const QpSettings& settings = {});  // horizon ≥ 1
 
-  // `qp` must have the solver's horizon. Where nothing is violated by the optimum without any row, that is
+  // `qp` and the guess must have the solver's horizon. Where nothing is violated by the optimum without any row, that is
   // the answer, after 0 iterations. A guess, which must not be solution() itself, tells which rows to look at first,
   // and where the interior point starts. Does not allocate.
   //   kSolved            solution() satisfies the conditions of optimality to the tolerance (in deviations from
@@ -78,7 +79,8 @@ class OcpQpSolver {
   //   kIterationLimit    neither within max_iterations, or while time was left. solution() is the cheaper of the
   //                      last iterate and the guess's inputs among those that are feasible, if one is; else the last
   //                      iterate. So ends also a contradiction by little between rows whose inputs have no hard bounds
-  //   kNumericalFailure  data not finite, σ < 0, or a factorisation broke down; solution() is meaningless
+  //   kNumericalFailure  data not finite or so large that they overflow, σ < 0, or a factorisation broke down; solution()
+  //                      is meaningless
   QpResult Solve(const Qp& qp, const Point* guess = nullptr, const TimeLeft* time_left = nullptr);
 
   [[nodiscard]] const Point& solution() const { return point_; }
@@ -140,10 +142,10 @@ class OcpQpSolver {
   [[nodiscard]] double LargestGradient(const Qp& qp, OwnX&& own_x, OwnU&& own_u, Pi&& pi) const;
   [[nodiscard]] double BaseError(const Qp& qp) const;
   void CloseLoop(const Qp& qp);
-  bool ShiftRows(const Qp& qp);
+  double ShiftRows(const Qp& qp);
   std::optional<SolverStatus> SolveByActiveSet(const Qp& qp, const Point* guess, const TimeLeft* time_left,
                                                QpResult& result);
-  [[nodiscard]] double RowTolerance() const { return 0.1 * tolerance_; }
+  [[nodiscard]] double RowTolerance() const { return 0.1 * settings_.tolerance; }
   [[nodiscard]] static double SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation);
   bool FindViolated(const Qp& qp, const Point* guess);
   bool AddRows(const Qp& qp);
@@ -173,7 +175,7 @@ class OcpQpSolver {
   void WriteWeightlessSlacks(const Qp& qp);
   void WriteSolution(const Qp& qp);
   bool SettleForFeasible(const Qp& qp, const Point* guess);
-  [[nodiscard]] bool FillSlacks(const Qp& qp, Point& point) const;
+  double FillSlacks(const Qp& qp, Point& point) const;
 
   QpSettings settings_;
   Point point_;
@@ -189,14 +191,14 @@ class OcpQpSolver {
   double tolerance_ = 0.0;   // with what round-off needs
   double base_error_ = 0.0;  // largest entry of the gradient at the base
   bool has_weightless_rows_ = false;
-  // Of the active set, at x, u and the dual's λ: by how much a row is violated, and λ times its row's distance.
-  double row_error_ = 0.0, complementarity_error_ = 0.0;
+  // At x, u, λ: by how much a row is violated (of the interior point: |distance − t|); λ times its row's distance; and
+  // the same with λ of 1 at most.
+  double row_error_ = 0.0, complementarity_error_ = 0.0, distance_error_ = 0.0;
   // Of the interior point.
   double mu_ = 0.0;                                // mean complementarity
   double longest_ = 0.0;                           // the step of this length brings the first t or λ to zero
   double first_order_ = 0.0, second_order_ = 0.0;  // of the sum of all λ t, in the step's length
   int sides_ = 0;                                  // finite bounds, those of slacks among them
-  double row_residual_ = 0.0;                      // largest |distance − t|
 };
 
 }  // namespace control

@@ -76,9 +76,10 @@ template <int kNx, int kNu>
 QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* guess, const TimeLeft* time_left) {
   QpResult result;
   if (!detail::HasFiniteData(qp) || !SolveBase(qp)) return result;
-  const bool satisfied = ShiftRows(qp);
+  const double violation = ShiftRows(qp);
+  if (!std::isfinite(violation)) return result;
   WriteBase(qp);
-  if (satisfied) {
+  if (violation == 0.0) {
     return {.status = SolverStatus::kSolved, .kkt_residual = base_error_, .feasible = true};
   }
   result.method = QpMethod::kActiveSet;
@@ -97,27 +98,32 @@ QpResult OcpQpSolver<kNx, kNu>::SolveByInteriorPoint(const Qp& qp, const Point* 
                                                      const TimeLeft* time_left) {
   QpResult result{.method = QpMethod::kInteriorPoint};
   StartRows(qp);
-  if (guess == nullptr || !StartFrom(qp, *guess)) StartCold(qp);
+  constexpr double kWild = 1e9;  // a residual from which no guess is worth starting
+  if (guess == nullptr || !StartFrom(qp, *guess) || !(Residuals(qp) <= kWild)) StartCold(qp);
   constexpr int kMaxHalvings = 6;
   constexpr double kShort = 0.9;
   double alpha = 1.0;
   double infeasibility = 1.0;  // what is left of the start's residuals of the linear equations
   for (;; ++result.iterations) {
-    result.kkt_residual = Residuals(qp);
+    const double linear = Residuals(qp);
+    result.kkt_residual = std::max(linear, complementarity_error_);
     if (!std::isfinite(result.kkt_residual)) return result;
-    if (result.kkt_residual <= tolerance_) {
+    const bool at_limit = result.iterations == settings_.max_iterations;
+    // Some λ are so large that their round-off is above the tolerance: as in the active set.
+    const double largest = std::max(linear, at_limit ? distance_error_ : complementarity_error_);
+    if (largest <= tolerance_ && row_error_ <= settings_.tolerance) {
       result.status = SolverStatus::kSolved;
       break;
     }
     // Multipliers that prove something grow where steps are short.
-    if (row_residual_ > tolerance_ && result.iterations >= 3 && alpha < kShort) {
+    if (row_error_ > tolerance_ && result.iterations >= 3 && alpha < kShort) {
       WriteSolution(qp);
       if (ProvesInfeasible(qp, point_)) {
         result.status = SolverStatus::kInfeasible;
         return result;
       }
     }
-    if (result.iterations == settings_.max_iterations || (time_left != nullptr && !(*time_left)())) {
+    if (at_limit || (time_left != nullptr && !(*time_left)())) {
       result.status = SolverStatus::kIterationLimit;
       break;
     }
@@ -129,7 +135,7 @@ QpResult OcpQpSolver<kNx, kNu>::SolveByInteriorPoint(const Qp& qp, const Point* 
     // A μ far below the tolerance would cost digits (t of the size of round-off) and gain nothing.
     const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * tolerance_);
     Step(qp, target, true);
-    const double keep = std::max(0.995, 1.0 - mu_);
+    const double keep = std::clamp(1.0 - mu_, 0.995, 1.0 - 1e-8);  // 1 would leave a t of zero
     alpha = StepLength(keep);
     // The second-order term can lead round in a cycle for ever (C. Cartis, Some disadvantages of a
     // Mehrotra-type primal-dual corrector interior point algorithm for linear programming, 2009). A cycle
@@ -146,9 +152,10 @@ QpResult OcpQpSolver<kNx, kNu>::SolveByInteriorPoint(const Qp& qp, const Point* 
   return result;
 }
 
-// Bounds for deviations from the base. True if the base itself violates none.
+// Bounds for deviations from the base. Returns by how much the base violates a row at most; infinite if a row's value is
+// not finite.
 template <int kNx, int kNu>
-bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
+double OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
   double violation = 0.0;
   has_weightless_rows_ = false;
   detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
@@ -156,12 +163,14 @@ bool OcpQpSolver<kNx, kNu>::ShiftRows(const Qp& qp) {
     const double value = detail::RowValue(row, work.base_x, work.base_u);
     work.lo[j] = row.lo - value;
     work.hi[j] = row.hi - value;
-    if (row.weightless())
+    const double beyond = std::max(work.lo[j], -work.hi[j]);
+    if (row.weightless()) {
       has_weightless_rows_ = true;
-    else
-      violation = std::max(violation, std::max(work.lo[j], -work.hi[j]));
+    } else if (!(beyond <= 0.0)) {
+      detail::Raise(violation, beyond);
+    }
   });
-  return violation == 0.0;
+  return violation;
 }
 
 // The interior point's work space for the rows.
@@ -182,16 +191,15 @@ void OcpQpSolver<kNx, kNu>::StartRows(const Qp& qp) {
   });
 }
 
-// Residuals of all equations but λ t = 0 into the work space, and μ. Returns the largest KKT residual.
+// Residuals of all equations but λ t = 0 into the work space, μ, and the errors of the rows. Returns the largest of the
+// residuals.
 template <int kNx, int kNu>
 double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
   const std::size_t N = work_.size() - 1;
   double largest = 0.0;
   double complementarity = 0.0;
-  row_residual_ = 0.0;
-  const auto raise = [&](double value) {
-    if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
-  };
+  row_error_ = complementarity_error_ = distance_error_ = 0.0;
+  const auto raise = [&](double value) { detail::Raise(largest, value); };
   for (std::size_t i = 0; i <= N; ++i) {
     const auto& stage = qp.stages[i];
     auto& work = work_[i];
@@ -210,8 +218,10 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
         if (!s.present) return;
         s.residual = distance - s.t;
         complementarity += s.lambda * s.t;
-        row_residual_ = std::max(row_residual_, std::abs(s.residual));
-        raise(s.lambda * std::max(s.t, distance));
+        detail::Raise(row_error_, s.residual);
+        const double away = std::max(s.t, std::abs(distance));
+        detail::Raise(complementarity_error_, s.lambda * away);
+        detail::Raise(distance_error_, std::min(s.lambda, 1.0) * away);
       };
       side(at.lo, value + at.epsilon - at.lo.bound);
       side(at.hi, at.hi.bound + at.epsilon - value);
@@ -224,7 +234,7 @@ double OcpQpSolver<kNx, kNu>::Residuals(const Qp& qp) {
     if (i > 0) raise(work.r_x.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
     if (i < N) raise(work.r_u.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>());
   }
-  raise(row_residual_);
+  raise(row_error_);
   mu_ = complementarity / std::max(sides_, 1);
   return largest;
 }
@@ -252,25 +262,26 @@ void OcpQpSolver<kNx, kNu>::Move(const Qp& qp, double alpha) {
   });
 }
 
-// The slacks that the soft rows need at the point's x, u. True if the hard rows hold.
+// Gives the soft rows the slacks that they need at the point's x, u. Returns the cost; infinite if a hard row does not
+// hold, or a number is not finite.
 template <int kNx, int kNu>
-bool OcpQpSolver<kNx, kNu>::FillSlacks(const Qp& qp, Point& point) const {
-  double violation = 0.0;
+double OcpQpSolver<kNx, kNu>::FillSlacks(const Qp& qp, Point& point) const {
+  bool hold = true;
   detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {
     auto& at = point.stages[i];
-    const double value = detail::RowValue(row, at.x, at.u);
-    const double beyond = std::max(0.0, detail::Violation(row.lo, row.hi, value));
-    at.slack[j] = row.soft() ? beyond : 0.0;
-    if (!row.soft()) violation = std::max(violation, beyond);
+    const double violation = detail::Violation(row.lo, row.hi, detail::RowValue(row, at.x, at.u));
+    at.slack[j] = row.soft() ? std::max(0.0, violation) : 0.0;
+    hold = hold && (row.soft() || violation <= settings_.tolerance);
   });
-  return violation <= tolerance_;
+  const double cost = EvaluateCost(qp, point);
+  return hold && std::isfinite(cost) ? cost : kNoBound;
 }
 
 // Makes the best of a solve that was stopped. True if solution() is feasible.
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::SettleForFeasible(const Qp& qp, const Point* guess) {
-  const bool feasible = FillSlacks(qp, point_);
-  if (guess == nullptr) return feasible;
+  const double own_cost = FillSlacks(qp, point_);
+  if (guess == nullptr) return own_cost < kNoBound;
   rollout_ = *guess;
   rollout_.stages[0].x = qp.x0;
   for (std::size_t i = 0; i + 1 < work_.size(); ++i) {
@@ -278,9 +289,9 @@ bool OcpQpSolver<kNx, kNu>::SettleForFeasible(const Qp& qp, const Point* guess) 
     const auto& at = rollout_.stages[i];
     rollout_.stages[i + 1].x = stage.A * at.x + stage.B * at.u + stage.c;
   }
-  if (!FillSlacks(qp, rollout_)) return feasible;
-  if (!feasible || EvaluateCost(qp, rollout_) < EvaluateCost(qp, point_)) point_ = rollout_;
-  return true;
+  const double cost = FillSlacks(qp, rollout_);
+  if (cost < own_cost) point_ = rollout_;
+  return std::min(cost, own_cost) < kNoBound;
 }
 
 template <int kNx, int kNu>

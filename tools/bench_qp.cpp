@@ -71,7 +71,8 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
       });
     }
     ++line.instances;
-    ++line.by_method[static_cast<std::size_t>(result.method)];
+    if (result.status != control::SolverStatus::kNumericalFailure)
+      ++line.by_method[static_cast<std::size_t>(result.method)];
     line.iterations += result.iterations;
     const bool solved = result.status == control::SolverStatus::kSolved;
     if (solved) {

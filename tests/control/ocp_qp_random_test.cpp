@@ -79,6 +79,11 @@ TEST(OcpQpSolverAgainstIpopt, ExactPenaltiesHaveTheSameOptimum) {
   }
 }
 
+TEST(OcpQpSolverAgainstIpopt, SoftRowsWithCrossedBoundsHaveTheSameOptimum) {
+  Random random(9);
+  for (int i = 0; i < 40; ++i) ExpectIpoptsOptimum(RandomQp<8, 2>(random, {.exact = 0.5, .crossed = 0.3}), i);
+}
+
 template <int kNx, int kNu>
 void ExpectProofOfInfeasibility(Random& random, int instance, const RandomQpOptions& options) {
   OcpQp<kNx, kNu> qp = RandomQp<kNx, kNu>(random, options);

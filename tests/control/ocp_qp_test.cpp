@@ -183,10 +183,36 @@ TEST(ProvesInfeasible, NeedsMultipliersThatExcludeEveryInput) {
   EXPECT_FALSE(ProvesInfeasible(qp, point));
 }
 
+// The first is solved by u = (−9, 10), the second by u = 1e10.
+TEST(ProvesInfeasible, InputWithoutBoundMayBeAsLargeAsItHasTo) {
+  OcpQp<1, 2> parallel(1);
+  const Eigen::Matrix<double, 1, 1> none(0.0), one(1.0);
+  ASSERT_TRUE(parallel.stages[0].AddRow(none, Eigen::Vector2d(1.0, 1.0), 1.0, 1.0));
+  ASSERT_TRUE(parallel.stages[0].AddRow(none, Eigen::Vector2d(1.0, 1.0 + 1e-9), 1.0 + 1e-8, 1.0 + 1e-8));
+  OcpQpPoint<1, 2> difference(1);
+  difference.stages[0].lambda[0].hi = difference.stages[0].lambda[1].lo = 1.0;
+  EXPECT_FALSE(ProvesInfeasible(parallel, difference));
+  OcpQp<1, 1> weak(1);
+  weak.stages[0].B(0, 0) = 1e-10;
+  ASSERT_TRUE(weak.stages[1].AddStateBound(0, 1.0, kNoBound));
+  OcpQpPoint<1, 1> row(1);
+  row.stages[1].lambda[0].lo = 1.0;
+  EXPECT_FALSE(ProvesInfeasible(weak, row));
+  ASSERT_TRUE(weak.stages[0].AddInputBound(0, -1e9, 1e9));
+  EXPECT_TRUE(ProvesInfeasible(weak, row));
+}
+
 TEST(ProvesInfeasible, NeverOfAFeasibleProblem) {
   testing::Random random(2);
   for (int i = 0; i < 200; ++i) {
-    const auto qp = testing::RandomQp<8, 2>(random, {.growth = random.Chance(0.5) ? 3.0 : 1.0});
+    auto qp = testing::RandomQp<8, 2>(random, {.growth = random.Chance(0.5) ? 3.0 : 1.0});
+    if (random.Chance(0.5)) {
+      for (auto& stage : qp.stages) {  // inputs without bounds
+        const auto end = std::remove_if(stage.rows.begin(), stage.rows.begin() + stage.row_count,
+                                        [](const auto& row) { return row.unit >= 8; });
+        stage.row_count = static_cast<int>(end - stage.rows.begin());
+      }
+    }
     OcpQpPoint<8, 2> point(qp.horizon());
     for (int trial = 0; trial < 20; ++trial) {
       for (auto& stage : point.stages) {

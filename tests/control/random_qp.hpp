@@ -12,7 +12,8 @@ struct RandomQpOptions {
   double growth = 1.0;      // scale of A: beyond 1 the dynamics are unstable
   double equalities = 0.0;  // share of hard rows with lo = hi
   int max_horizon = 10;
-  double exact = 0.0;  // share of soft rows with σ > 0; of these every third has ρ = 0
+  double exact = 0.0;    // share of soft rows with σ > 0; of these every third has ρ = 0
+  double crossed = 0.0;  // share of soft rows with lo > hi
 };
 
 // Hard rows hold for a trajectory drawn at random with inputs within [-1, 1]; soft rows hold where they may.
@@ -20,7 +21,7 @@ template <int kNx, int kNu>
 OcpQp<kNx, kNu> RandomQp(Random& random, const RandomQpOptions& options) {
   using VectorX = Eigen::Matrix<double, kNx, 1>;
   using VectorU = Eigen::Matrix<double, kNu, 1>;
-  const int N = random.Integer(2, options.max_horizon);
+  const int N = random.Integer(1, options.max_horizon);
   OcpQp<kNx, kNu> qp(N);
   qp.x0 = random.Filled<VectorX>(2.0);
   VectorX x = qp.x0;
@@ -54,6 +55,11 @@ OcpQp<kNx, kNu> RandomQp(Random& random, const RandomQpOptions& options) {
       }
       if (!soft && random.Chance(options.equalities)) {
         (void)stage.AddRow(C, D, value, value);
+        continue;
+      }
+      if (soft && options.crossed > 0.0 && random.Chance(options.crossed)) {
+        (void)stage.AddRow(C, D, value + random.Uniform(0.01, 1.0), value - random.Uniform(0.01, 1.0), rho,
+                           sigma);
         continue;
       }
       const bool has_lo = random.Chance(0.7), has_hi = !has_lo || random.Chance(0.5);
