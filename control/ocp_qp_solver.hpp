@@ -2,8 +2,9 @@
 //   1. The optimum without rows, by one Riccati recursion: the base. If it violates no row, it is the answer.
 //   2. A dual active set on the rows that matter, whose columns are sweeps of the base's recursion: O(N) for each row
 //      (ocp_qp_active_set.hpp, dual_active_set.hpp).
-//   3. Where that knows too many rows or loses its digits, and where a soft row presses on both of its bounds, a primal-dual interior point with Mehrotra's predictor and
-//      corrector, whose Newton systems are Riccati recursions: O(N) for each iteration (ocp_qp_newton.hpp).
+//   3. Where that knows too many rows or loses its digits, and where a soft row presses on both of its bounds, a
+//      primal-dual interior point with Mehrotra's predictor and corrector, whose Newton systems are Riccati recursions:
+//      O(N) for each iteration (ocp_qp_newton.hpp).
 //
 // Sources: C. V. Rao, S. J. Wright, J. B. Rawlings, Application of interior-point methods to model predictive control
 // (1998), for the recursion and 3; D. Goldfarb, A. Idnani, A numerically stable dual method for solving strictly convex
