@@ -274,7 +274,8 @@ double OcpQpSolver<kNx, kNu>::FillSlacks(const Qp& qp, Point& point) const {
     hold = hold && (row.soft() || violation <= settings_.tolerance);
   });
   const double cost = EvaluateCost(qp, point);
-  return hold && std::isfinite(cost) ? cost : kNoBound;
+  if (!hold || !std::isfinite(cost)) return kNoBound;
+  return cost;
 }
 
 // Makes the best of a solve that was stopped. True if solution() is feasible.
