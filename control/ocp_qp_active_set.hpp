@@ -77,6 +77,16 @@ std::optional<SolverStatus> OcpQpSolver<kNx, kNu>::SolveByActiveSet(const Qp& qp
   return SolverStatus::kSolved;
 }
 
+// Calls visit(row, its stage, its index there, its index in the dual) for every row that the dual knows.
+template <int kNx, int kNu>
+template <typename Visit>
+void OcpQpSolver<kNx, kNu>::ForEachKnown(const Qp& qp, Visit&& visit) const {
+  for (std::size_t a = 0; a < known_.size(); ++a) {
+    const RowPlace& place = known_[a];
+    visit(qp.stages[place.stage].rows[place.row], place.stage, place.row, static_cast<int>(a));
+  }
+}
+
 // The slack of a soft row with this multiplier and this violation.
 template <int kNx, int kNu>
 double OcpQpSolver<kNx, kNu>::SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation) {
@@ -134,10 +144,7 @@ bool OcpQpSolver<kNx, kNu>::AddRows(const Qp& qp) {
   if (first + count > settings_.max_known_rows) return false;
   std::size_t last = 0;
   for (const RowPlace& place : candidates_) last = std::max(last, place.stage);
-  for (std::size_t i = 0; i <= last; ++i) {
-    responses_[i].p.setZero();
-    responses_[i].k.setZero();
-  }
+  detail::ClearGradients(last, responses_);
   for (int b = 0; b < count; ++b) {
     const RowPlace& place = candidates_[static_cast<std::size_t>(b)];
     const auto& row = qp.stages[place.stage].rows[place.row];
@@ -148,10 +155,8 @@ bool OcpQpSolver<kNx, kNu>::AddRows(const Qp& qp) {
     known_.push_back(place);
   }
   detail::SweepRiccati(qp, riccati_, last, responses_);
-  for (int a = 0; a < dual_.size(); ++a) {
-    const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    const auto& row = qp.stages[place.stage].rows[place.row];
-    const auto& response = responses_[place.stage];
+  ForEachKnown(qp, [&](const auto& row, std::size_t i, std::size_t, int a) {
+    const auto& response = responses_[i];
     Eigen::Matrix<double, 1, kBatch> value;
     if (row.unit >= kNx) {
       value = response.du.row(row.unit - kNx);
@@ -162,24 +167,19 @@ bool OcpQpSolver<kNx, kNu>::AddRows(const Qp& qp) {
           detail::Product(row.C.transpose(), response.dx) + detail::Product(row.D.transpose(), response.du);
     }
     for (int b = 0; b < count; ++b) dual_.SetM(a, first + b, -value[b]);
-  }
+  });
   return true;
 }
 
 // x, u, π of the dual's λ.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::MoveToMultipliers(const Qp& qp) {
-  for (auto& sweep : sweep_) {
-    sweep.p.setZero();
-    sweep.k.setZero();
-  }
-  for (int a = 0; a < dual_.size(); ++a) {
-    if (dual_.lambda(a) == 0.0) continue;
-    const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    auto& sweep = sweep_[place.stage];
-    detail::AddRowGradient(qp.stages[place.stage].rows[place.row], dual_.lambda(a), sweep.p, sweep.k);
-  }
-  detail::SweepRiccati(qp, riccati_, work_.size() - 1, sweep_);
+  const std::size_t N = work_.size() - 1;
+  detail::ClearGradients(N, sweep_);
+  ForEachKnown(qp, [&](const auto& row, std::size_t i, std::size_t, int a) {
+    if (dual_.lambda(a) != 0.0) detail::AddRowGradient(row, dual_.lambda(a), sweep_[i].p, sweep_[i].k);
+  });
+  detail::SweepRiccati(qp, riccati_, N, sweep_);
   for (std::size_t i = 0; i < work_.size(); ++i) {
     auto& work = work_[i];
     work.x = sweep_[i].dx;
@@ -190,11 +190,9 @@ void OcpQpSolver<kNx, kNu>::MoveToMultipliers(const Qp& qp) {
 // Tells the dual the rows' values at x, u, which its M has but to round-off.
 template <int kNx, int kNu>
 void OcpQpSolver<kNx, kNu>::CorrectValues(const Qp& qp) {
-  for (int a = 0; a < dual_.size(); ++a) {
-    const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    const auto& work = work_[place.stage];
-    dual_.Correct(a, detail::RowValue(qp.stages[place.stage].rows[place.row], work.x, work.u));
-  }
+  ForEachKnown(qp, [&](const auto& row, std::size_t i, std::size_t, int a) {
+    dual_.Correct(a, detail::RowValue(row, work_[i].x, work_[i].u));
+  });
 }
 
 // The largest entry of the Lagrangian's gradient at x, u, λ. Computes π.
@@ -208,11 +206,9 @@ double OcpQpSolver<kNx, kNu>::StationarityError(const Qp& qp) {
     work.r_x = stage.Q.cwiseProduct(work.x) - work.pi;
     work.r_u = stage.R.cwiseProduct(work.u);
   }
-  for (int a = 0; a < dual_.size(); ++a) {
-    const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    auto& work = work_[place.stage];
-    detail::AddRowGradient(qp.stages[place.stage].rows[place.row], dual_.lambda(a), work.r_x, work.r_u);
-  }
+  ForEachKnown(qp, [&](const auto& row, std::size_t i, std::size_t, int a) {
+    detail::AddRowGradient(row, dual_.lambda(a), work_[i].r_x, work_[i].r_u);
+  });
   return LargestGradient(
       qp, [this](std::size_t i) -> const VectorX& { return work_[i].r_x; },
       [this](std::size_t i) -> const VectorU& { return work_[i].r_u; },
@@ -221,10 +217,9 @@ double OcpQpSolver<kNx, kNu>::StationarityError(const Qp& qp) {
 
 template <int kNx, int kNu>
 bool OcpQpSolver<kNx, kNu>::ProveByRay(const Qp& qp) {
-  for (int a = 0; a < dual_.size(); ++a) {
-    const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    point_.stages[place.stage].lambda[place.row] = RowMultiplier::OfDifference(dual_.ray(a));
-  }
+  ForEachKnown(qp, [&](const auto&, std::size_t i, std::size_t j, int a) {
+    point_.stages[i].lambda[j] = RowMultiplier::OfDifference(dual_.ray(a));
+  });
   return ProvesInfeasible(qp, point_);
 }
 
@@ -238,18 +233,15 @@ void OcpQpSolver<kNx, kNu>::WriteActiveSet(const Qp& qp) {
     at.pi += work.pi;
   }
   WriteWeightlessSlacks(qp);
-  for (int a = 0; a < dual_.size(); ++a) {
-    const RowPlace& place = known_[static_cast<std::size_t>(a)];
-    const auto& row = qp.stages[place.stage].rows[place.row];
-    const auto& work = work_[place.stage];
-    auto& at = point_.stages[place.stage];
+  ForEachKnown(qp, [&](const auto& row, std::size_t i, std::size_t j, int a) {
+    const auto& work = work_[i];
+    auto& at = point_.stages[i];
     const double lambda = dual_.lambda(a);
-    at.lambda[place.row] = RowMultiplier::OfDifference(lambda);
-    if (!row.soft()) continue;
+    at.lambda[j] = RowMultiplier::OfDifference(lambda);
+    if (!row.soft()) return;
     const double value = detail::RowValue(row, work.x, work.u);
-    at.slack[place.row] =
-        SlackOf(row, lambda, detail::Violation(work.lo[place.row], work.hi[place.row], value));
-  }
+    at.slack[j] = SlackOf(row, lambda, detail::Violation(work.lo[j], work.hi[j], value));
+  });
 }
 
 }  // namespace control

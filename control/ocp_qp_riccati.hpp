@@ -62,6 +62,15 @@ struct SweepStage {
   Eigen::Matrix<double, kNu, kCols, kOrder> du;
 };
 
+// The gradients of stages 0..last to zero.
+template <int kNx, int kNu, int kCols>
+void ClearGradients(std::size_t last, std::vector<SweepStage<kNx, kNu, kCols>>& sweep) {
+  for (std::size_t i = 0; i <= last; ++i) {
+    sweep[i].p.setZero();
+    sweep[i].k.setZero();
+  }
+}
+
 // min Σ ½ dxᵀQ dx + ½ duᵀR du + g_xᵀdx + g_uᵀdu with the factorised matrices; g is zero after stage `last`.
 template <int kNx, int kNu, int kCols>
 void SweepRiccati(const OcpQp<kNx, kNu>& qp, const std::vector<RiccatiStage<kNx, kNu>>& riccati,

@@ -147,6 +147,8 @@ class OcpQpSolver {
   std::optional<SolverStatus> SolveByActiveSet(const Qp& qp, const Point* guess, const TimeLeft* time_left,
                                                QpResult& result);
   [[nodiscard]] double RowTolerance() const { return 0.1 * settings_.tolerance; }
+  template <typename Visit>
+  void ForEachKnown(const Qp& qp, Visit&& visit) const;
   [[nodiscard]] static double SlackOf(const OcpQpRow<kNx, kNu>& row, double lambda, double violation);
   bool FindViolated(const Qp& qp, const Point* guess);
   bool AddRows(const Qp& qp);

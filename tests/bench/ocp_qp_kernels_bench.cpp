@@ -39,10 +39,7 @@ struct OcpQpKernels {
   // Of a gradient of ones in the last state alone.
   template <typename SweepStages>
   void SweepFromLastStage(SweepStages& stages) {
-    for (auto& stage : stages) {
-      stage.p.setZero();
-      stage.k.setZero();
-    }
+    detail::ClearGradients(stages.size() - 1, stages);
     stages.back().p.setOnes();
     detail::SweepRiccati(qp, solver.riccati_, stages.size() - 1, stages);
   }

@@ -1,6 +1,6 @@
 // The solver on 10⁵ random problems of every kind: each is solved to the residual or proven infeasible, and rightly so,
-// by what is known of how it was made. Ipopt judges a sample of them. (About one in 10⁶ whose equations depend on each
-// other to the last digits ends as kIterationLimit. The drawing is the same every time.)
+// by what is known of how it was made. Ipopt judges a sample of them. (One in some millions, whose equations depend on
+// each other to the last digits, can end as kIterationLimit. The drawing is the same every time.)
 #include <algorithm>
 #include <cmath>
 #include <rapidcheck/gtest.h>

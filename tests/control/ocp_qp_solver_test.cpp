@@ -202,11 +202,8 @@ TEST_P(OcpQpSolverBy, RowsThatCanHoldAreHeldByAnExactPenaltyAsIfTheyWereHard) {
   int active = 0;
   for (int i = 0; i < 100; ++i) {
     Qp qp = testing::RandomQp<8, 2>(random, {});
-    for (auto& stage : qp.stages) {  // the hard rows alone: they are feasible by construction
-      const auto end = std::remove_if(stage.rows.begin(), stage.rows.begin() + stage.row_count,
-                                      [](const auto& row) { return row.soft(); });
-      stage.row_count = static_cast<int>(end - stage.rows.begin());
-    }
+    // The hard rows alone: they are feasible by construction.
+    for (auto& stage : qp.stages) testing::EraseRows(stage, [](const auto& row) { return row.soft(); });
     Solver hard(qp.horizon(), settings_), exact(qp.horizon(), settings_);
     ASSERT_EQ(hard.Solve(qp).status, SolverStatus::kSolved) << i;
     Qp soft = qp;

@@ -186,7 +186,7 @@ TEST(ProvesInfeasible, NeedsMultipliersThatExcludeEveryInput) {
 // The first is solved by u = (−9, 10), the second by u = 1e10.
 TEST(ProvesInfeasible, InputWithoutBoundMayBeAsLargeAsItHasTo) {
   OcpQp<1, 2> parallel(1);
-  const Eigen::Matrix<double, 1, 1> none(0.0), one(1.0);
+  const Eigen::Matrix<double, 1, 1> none(0.0);
   ASSERT_TRUE(parallel.stages[0].AddRow(none, Eigen::Vector2d(1.0, 1.0), 1.0, 1.0));
   ASSERT_TRUE(parallel.stages[0].AddRow(none, Eigen::Vector2d(1.0, 1.0 + 1e-9), 1.0 + 1e-8, 1.0 + 1e-8));
   OcpQpPoint<1, 2> difference(1);
@@ -207,11 +207,8 @@ TEST(ProvesInfeasible, NeverOfAFeasibleProblem) {
   for (int i = 0; i < 200; ++i) {
     auto qp = testing::RandomQp<8, 2>(random, {.growth = random.Chance(0.5) ? 3.0 : 1.0});
     if (random.Chance(0.5)) {
-      for (auto& stage : qp.stages) {  // inputs without bounds
-        const auto end = std::remove_if(stage.rows.begin(), stage.rows.begin() + stage.row_count,
-                                        [](const auto& row) { return row.unit >= 8; });
-        stage.row_count = static_cast<int>(end - stage.rows.begin());
-      }
+      // Inputs without bounds.
+      for (auto& stage : qp.stages) testing::EraseRows(stage, [](const auto& row) { return row.unit >= 8; });
     }
     OcpQpPoint<8, 2> point(qp.horizon());
     for (int trial = 0; trial < 20; ++trial) {

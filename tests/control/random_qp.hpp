@@ -1,6 +1,7 @@
 // Random OCP-QPs that are feasible, or not, by construction.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/ocp_qp_impl.hpp"
@@ -69,6 +70,13 @@ OcpQp<kNx, kNu> RandomQp(Random& random, const RandomQpOptions& options) {
     if (i < N) x = (stage.A * x + stage.B * u + stage.c).eval();
   }
   return qp;
+}
+
+// Takes the rows out for which unwanted(row) is true.
+template <typename Stage, typename Unwanted>
+void EraseRows(Stage& stage, Unwanted&& unwanted) {
+  const auto end = std::remove_if(stage.rows.begin(), stage.rows.begin() + stage.row_count, unwanted);
+  stage.row_count = static_cast<int>(end - stage.rows.begin());
 }
 
 // The same row, multiplied by a factor.
