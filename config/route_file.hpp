@@ -21,8 +21,8 @@
 
 #include <filesystem>
 
-#include "control/route.hpp"
-#include "control/types.hpp"
+#include "control/road/route.hpp"
+#include "control/vehicle/types.hpp"
 
 namespace config {
 

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "daemon/log.hpp"
-#include "daemon/violation_text.hpp"
+#include "loop/violation_text.hpp"
 
 namespace lpvmpcd {
 
 using namespace std::chrono_literals;
 
-bool EventCount::Tell(std::uint64_t total, Time now, std::uint64_t& news) {
+bool EventCount::Tell(std::uint64_t total, base::Time now, std::uint64_t& news) {
   if (total == told_ || (told_ != 0 && now - last_ < 1s)) {
     return false;
   }
@@ -21,34 +21,35 @@ bool EventCount::Tell(std::uint64_t total, Time now, std::uint64_t& news) {
   return true;
 }
 
-void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
-  const CycleReport& report = loop.report();
-  const bool faulty = report.fault != dbc::FaultCode::kNone;
-  SetLogFields(
-      {.mode = Name(report.mode), .fault = faulty ? Name(report.fault) : "", .cause = Name(report.cause)});
+void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base::Time now) {
+  const loop::CycleReport& report = loop.report();
+  const bool faulty = report.fault != bus::FaultCode::kNone;
+  SetLogFields({.mode = safety::Name(report.mode),
+                .fault = faulty ? Name(report.fault) : "",
+                .cause = safety::Name(report.cause)});
   if (report.mode != report.previous_mode) {
-    const bool bad = report.mode == Mode::kSafeStop || report.mode == Mode::kFault;
+    const bool bad = report.mode == bus::Mode::kSafeStop || report.mode == bus::Mode::kFault;
     spdlog::log(bad ? spdlog::level::warn : spdlog::level::info, "mode {} -> {}: {}",
-                Name(report.previous_mode), Name(report.mode), Name(report.cause));
+                safety::Name(report.previous_mode), safety::Name(report.mode), safety::Name(report.cause));
     told_fault_ = report.fault;  // most often it is the cause
   } else if (!faulty) {
     told_fault_ = report.fault;
   } else if (report.fault != told_fault_ && now - last_fault_ >= 1s) {
-    spdlog::log(Commands(report.mode) ? spdlog::level::warn : spdlog::level::info, "in {}: {}",
-                Name(report.mode), FaultText(report));
+    spdlog::log(bus::Commands(report.mode) ? spdlog::level::warn : spdlog::level::info, "in {}: {}",
+                safety::Name(report.mode), FaultText(report));
     told_fault_ = report.fault;
     last_fault_ = now;
   }
   if (report.engagement_refused) {
     spdlog::warn("engagement refused: {}",
-                 report.fault == dbc::FaultCode::kNone
+                 report.fault == bus::FaultCode::kNone
                      ? std::string("driver overrides, or inputs not healthy for long enough")
                      : FaultText(report));
   }
 
   std::uint64_t n = 0;
-  for (std::size_t i = 0; i < kRxFaults; ++i) {
-    const auto fault = static_cast<RxFault>(i);
+  for (std::size_t i = 0; i < safety::kRxFaults; ++i) {
+    const auto fault = static_cast<safety::RxFault>(i);
     if (rx_faults_[i].Tell(loop.monitor().count(fault), now, n)) {
       spdlog::warn("{} refused: {} ({} since start)", n == 1 ? "frame" : fmt::format("{} frames", n),
                    Name(fault), loop.monitor().count(fault));
@@ -67,7 +68,7 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
   if (deadline_misses_.Tell(report.deadline_misses, now, n)) {
     spdlog::warn("deadlines missed: {}", n);
   }
-  if (trigger == Trigger::kTimer && report.mode != Mode::kInit) {
+  if (trigger == loop::Trigger::kTimer && report.mode != bus::Mode::kInit) {
     ++timer_cycles_;
   }
   if (late_states_.Tell(timer_cycles_, now, n)) {
@@ -76,13 +77,13 @@ void EventLog::Cycle(const ControlLoop& loop, Trigger trigger, Time now) {
 }
 
 // At most once a second.
-void EventLog::Constraint(const CycleReport& report, Time now) {
+void EventLog::Constraint(const loop::CycleReport& report, base::Time now) {
   const auto& violation = report.unmet();
   if (!violation || (constraint_told_ && now - last_constraint_ < 1s)) return;
   constraint_told_ = true;
   last_constraint_ = now;
-  const std::string text = ViolationText(*violation);
-  if (report.solver != dbc::SolverStatus::kSolved) {
+  const std::string text = loop::ViolationText(*violation);
+  if (report.solver != bus::SolverStatus::kSolved) {
     spdlog::warn("problem not solved; most in the way: {}", text);
   } else if (!report.rejection) {
     spdlog::info("constraint relaxed: {}", text);
@@ -93,33 +94,33 @@ void EventLog::Constraint(const CycleReport& report, Time now) {
   }
 }
 
-void EventLog::Dropped(std::uint64_t total, Time now) {
+void EventLog::Dropped(std::uint64_t total, base::Time now) {
   std::uint64_t n = 0;
   if (dropped_.Tell(total, now, n)) {
     spdlog::warn("receive buffer full: {} frames dropped by the kernel", n);
   }
 }
 
-void EventLog::Unsent(std::uint64_t total, Time now) {
+void EventLog::Unsent(std::uint64_t total, base::Time now) {
   std::uint64_t n = 0;
   if (unsent_.Tell(total, now, n)) {
     spdlog::warn("transmit queue full: {} frames not sent", n);
   }
 }
 
-void EventLog::Times(const Latencies& latencies) {
-  const auto text = [](const LatencyHistogram& histogram) {
+void EventLog::Times(const base::Latencies& latencies) {
+  const auto text = [](const base::LatencyHistogram& histogram) {
     if (histogram.count() == 0) return std::string("not measured");
     return fmt::format("median {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms",
-                       Milliseconds(histogram.Percentile(0.5)), Milliseconds(histogram.Percentile(0.99)),
-                       Milliseconds(histogram.max()));
+                       base::Milliseconds(histogram.Percentile(0.5)),
+                       base::Milliseconds(histogram.Percentile(0.99)), base::Milliseconds(histogram.max()));
   };
   spdlog::info("cycle latency {}; control step {}", text(latencies.cycle), text(latencies.step));
 }
 
-std::string FaultText(const CycleReport& report) {
+std::string FaultText(const loop::CycleReport& report) {
   std::string text(Name(report.fault));
-  if (report.fault != dbc::FaultCode::kNone && report.faulty_message) {
+  if (report.fault != bus::FaultCode::kNone && report.faulty_message) {
     const auto& [message, reason] = *report.faulty_message;
     text += fmt::format(" ({} {})", Name(message),
                         reason ? fmt::format("refused: {}", Name(*reason)) : "missing");
@@ -127,39 +128,39 @@ std::string FaultText(const CycleReport& report) {
   return text;
 }
 
-std::string_view Name(dbc::FaultCode fault) {
+std::string_view Name(bus::FaultCode fault) {
   switch (fault) {
-    case dbc::FaultCode::kNone:
+    case bus::FaultCode::kNone:
       return "no fault";
-    case dbc::FaultCode::kStateStale:
+    case bus::FaultCode::kStateStale:
       return "vehicle state stale";
-    case dbc::FaultCode::kStateInvalid:
+    case bus::FaultCode::kStateInvalid:
       return "vehicle state refused";
-    case dbc::FaultCode::kObstaclesStale:
+    case bus::FaultCode::kObstaclesStale:
       return "obstacles stale";
-    case dbc::FaultCode::kDriverRequestStale:
+    case bus::FaultCode::kDriverRequestStale:
       return "driver request stale";
-    case dbc::FaultCode::kSolverInfeasible:
+    case bus::FaultCode::kSolverInfeasible:
       return "problem infeasible";
-    case dbc::FaultCode::kSolverIterationLimit:
+    case bus::FaultCode::kSolverIterationLimit:
       return "solver at its iteration limit";
-    case dbc::FaultCode::kSolverNumericalFailure:
+    case bus::FaultCode::kSolverNumericalFailure:
       return "solver failed numerically";
-    case dbc::FaultCode::kPlanExhausted:
+    case bus::FaultCode::kPlanExhausted:
       return "plan exhausted";
-    case dbc::FaultCode::kRouteEnd:
+    case bus::FaultCode::kRouteEnd:
       return "end of route";
-    case dbc::FaultCode::kOffRoute:
+    case bus::FaultCode::kOffRoute:
       return "not on the route or too slow";
-    case dbc::FaultCode::kBusDown:
+    case bus::FaultCode::kBusDown:
       return "bus down";
-    case dbc::FaultCode::kInternalError:
+    case bus::FaultCode::kInternalError:
       return "internal error";
-    case dbc::FaultCode::kStateLate:
+    case bus::FaultCode::kStateLate:
       return "no new vehicle state";
-    case dbc::FaultCode::kDeadlineMissed:
+    case bus::FaultCode::kDeadlineMissed:
       return "deadline missed";
-    case dbc::FaultCode::kPlanRejected:
+    case bus::FaultCode::kPlanRejected:
       return "plan rejected";
   }
   return "?";

@@ -14,7 +14,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "daemon/file_descriptor.hpp"
+#include "base/file_descriptor.hpp"
 
 namespace lpvmpcd {
 namespace {
@@ -88,7 +88,7 @@ class JournalSink : public Sink {
     datagram_.append(value).append("\n");
   }
 
-  FileDescriptor socket_;
+  base::FileDescriptor socket_;
   std::string datagram_;
 };
 

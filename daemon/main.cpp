@@ -4,11 +4,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "daemon/assembly.hpp"
-#include "daemon/config.hpp"
 #include "daemon/log.hpp"
 #include "daemon/reload.hpp"
 #include "daemon/service.hpp"
+#include "loop/assembly.hpp"
+#include "loop/config.hpp"
 
 namespace {
 
@@ -35,20 +35,20 @@ int main(int argc, char** argv) {
                "read the configuration and all that it names, say what it is, and end");
   app.set_version_flag("--version", "lpvmpcd " LPVMPC_VERSION);
   const auto load = [&] {
-    lpvmpcd::Config config = lpvmpcd::LoadConfig(file);
-    if (!interface.empty()) lpvmpcd::SelectInterface(config, interface);
-    if (!controller.empty()) lpvmpcd::SelectController(config, controller);
-    if (lockstep) lpvmpcd::SelectLockstep(config);
+    loop::Config config = loop::LoadConfig(file);
+    if (!interface.empty()) loop::SelectInterface(config, interface);
+    if (!controller.empty()) loop::SelectController(config, controller);
+    if (lockstep) loop::SelectLockstep(config);
     return config;
   };
-  std::optional<lpvmpcd::Config> config;
-  std::optional<lpvmpcd::Assembly> assembly;
+  std::optional<loop::Config> config;
+  std::optional<loop::Assembly> assembly;
   try {
     app.parse(argc, argv);
     // Not CLI11's own check, which would hide an unknown option.
     if (file.empty()) throw std::runtime_error("--config is required");
     config = load();
-    assembly.emplace(*config, lpvmpcd::MonotonicNow);
+    assembly.emplace(*config, base::MonotonicNow);
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : Fail(error, kUsageError);
   } catch (const std::exception& error) {
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   }
   if (check) {
     std::cout << "interface " << config->service.interface << ", controller "
-              << lpvmpcd::ControllerName(config->controller) << ", horizon " << lpvmpcd::HorizonOf(*config)
+              << loop::ControllerName(config->controller) << ", horizon " << loop::HorizonOf(*config)
               << ", period " << config->mpc.t_s << " s, route " << config->route.string() << " with "
               << assembly->reference().size() << " points" << std::endl;
     return std::cout ? 0 : Fail(std::runtime_error("cannot write to stdout"), kRunTimeError);

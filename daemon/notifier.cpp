@@ -6,7 +6,7 @@
 
 #include <systemd/sd-daemon.h>
 
-#include "daemon/clock.hpp"
+#include "base/clock.hpp"
 #include "daemon/event_log.hpp"
 
 namespace lpvmpcd {
@@ -25,7 +25,7 @@ void Notifier::Ready() {
 }
 
 void Notifier::Reloading() {
-  const auto now = std::chrono::duration_cast<std::chrono::microseconds>(MonotonicNow());
+  const auto now = std::chrono::duration_cast<std::chrono::microseconds>(base::MonotonicNow());
   sd_notifyf(0, "RELOADING=1\nMONOTONIC_USEC=%lld", static_cast<long long>(now.count()));
 }
 
@@ -33,7 +33,7 @@ void Notifier::Stopping() {
   sd_notify(0, "STOPPING=1");
 }
 
-void Notifier::Cycle(const CycleReport& report, const Latencies& latencies, Time now) {
+void Notifier::Cycle(const loop::CycleReport& report, const base::Latencies& latencies, base::Time now) {
   if (watchdog_period_ > 0s && (!fed_ || now - last_watchdog_ >= watchdog_period_ / 4)) {
     fed_ = true;
     last_watchdog_ = now;
@@ -47,15 +47,15 @@ void Notifier::Cycle(const CycleReport& report, const Latencies& latencies, Time
   last_status_ = now;
   mode_ = report.mode;
   fault_ = report.fault;
-  const auto figures = [](const LatencyHistogram& histogram) {
-    return fmt::format("p99 {:.2f} ms, max {:.2f} ms", Milliseconds(histogram.Percentile(0.99)),
-                       Milliseconds(histogram.max()));
+  const auto figures = [](const base::LatencyHistogram& histogram) {
+    return fmt::format("p99 {:.2f} ms, max {:.2f} ms", base::Milliseconds(histogram.Percentile(0.99)),
+                       base::Milliseconds(histogram.max()));
   };
-  sd_notify(0,
-            fmt::format("STATUS={}; {}; {} cycles, {} deadline misses; latency {}; step {}{}{}", Name(mode_),
-                        FaultText(report), report.cycles, report.deadline_misses, figures(latencies.cycle),
-                        figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
-                .c_str());
+  sd_notify(
+      0, fmt::format("STATUS={}; {}; {} cycles, {} deadline misses; latency {}; step {}{}{}",
+                     safety::Name(mode_), FaultText(report), report.cycles, report.deadline_misses,
+                     figures(latencies.cycle), figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
+             .c_str());
 }
 
 }  // namespace lpvmpcd

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "daemon/cycle_report.hpp"
-#include "daemon/latency_histogram.hpp"
-#include "daemon/time.hpp"
+#include "base/latency_histogram.hpp"
+#include "base/time.hpp"
+#include "loop/cycle_report.hpp"
 
 namespace lpvmpcd {
 
@@ -21,15 +21,15 @@ class Notifier {
   void SetRemark(std::string remark) { remark_ = std::move(remark); }
   // Mode, fault and figures: at once when mode or fault change, otherwise once a second. And the watchdog's food, if it
   // asks for it, from here alone: a daemon without cycles is to be restarted.
-  void Cycle(const CycleReport& report, const Latencies& latencies, Time now);
+  void Cycle(const loop::CycleReport& report, const base::Latencies& latencies, base::Time now);
 
  private:
   std::string remark_;
-  Time watchdog_period_{};  // 0: no watchdog
-  Time last_watchdog_{};
-  Time last_status_{};
-  Mode mode_ = Mode::kInit;
-  dbc::FaultCode fault_ = dbc::FaultCode::kNone;
+  base::Time watchdog_period_{};  // 0: no watchdog
+  base::Time last_watchdog_{};
+  base::Time last_status_{};
+  bus::Mode mode_ = bus::Mode::kInit;
+  bus::FaultCode fault_ = bus::FaultCode::kNone;
   bool fed_ = false;
   bool told_ = false;
 };

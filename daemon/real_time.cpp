@@ -85,7 +85,7 @@ void UseFifo(int priority, RealTimeOutcome& outcome) {
 
 }  // namespace
 
-RealTimeOutcome ApplyRealTime(const RealTimeSettings& settings) {
+RealTimeOutcome ApplyRealTime(const loop::RealTimeSettings& settings) {
   RealTimeOutcome outcome;
   UseCpus(settings.cpus, outcome);
   if (settings.lock_memory) {

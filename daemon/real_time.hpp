@@ -5,13 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace lpvmpcd {
+#include "loop/service_settings.hpp"
 
-struct RealTimeSettings {
-  int fifo_priority = 0;     // of SCHED_FIFO, 1..99; 0: the usual scheduling
-  bool lock_memory = false;  // all memory, present and to come, and a stack that has been touched
-  std::vector<int> cpus;     // the only ones to run on; none: all that there are
-};
+namespace lpvmpcd {
 
 struct RealTimeOutcome {
   struct Refusal {
@@ -24,6 +20,6 @@ struct RealTimeOutcome {
 
 // Asks for what the settings say, for this thread: to be called by a process of one thread, once it has built all that
 // it needs. Locked memory counts against RLIMIT_MEMLOCK, as does what is allocated later, which then fails.
-[[nodiscard]] RealTimeOutcome ApplyRealTime(const RealTimeSettings& settings);
+[[nodiscard]] RealTimeOutcome ApplyRealTime(const loop::RealTimeSettings& settings);
 
 }  // namespace lpvmpcd

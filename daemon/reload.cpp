@@ -11,7 +11,7 @@
 
 namespace lpvmpcd {
 
-std::vector<std::string> ChangedKeys(const Config& before, const Config& after) {
+std::vector<std::string> ChangedKeys(const loop::Config& before, const loop::Config& after) {
   std::vector<std::pair<std::string, std::string>> differences;
   std::ranges::set_symmetric_difference(before.written, after.written, std::back_inserter(differences));
   std::vector<std::string> keys;
@@ -36,16 +36,16 @@ std::string_view WhyNot(std::string_view key, bool commanding) {
   return "needs a restart";
 }
 
-Reloader::Reloader(Config now, std::function<Config()> load, ControlLoop& loop)
+Reloader::Reloader(loop::Config now, std::function<loop::Config()> load, loop::ControlLoop& loop)
     : now_(std::move(now)), load_(std::move(load)), loop_(&loop) {}
 
 void Reloader::Reload() {
   try {
-    Config next = load_();
+    loop::Config next = load_();
     const std::vector<std::string> changed = ChangedKeys(now_, next);
     std::vector<std::string> refused;
     for (const std::string& key : changed) {
-      const std::string_view why = WhyNot(key, Commands(loop_->report().mode));
+      const std::string_view why = WhyNot(key, bus::Commands(loop_->report().mode));
       if (!why.empty()) {
         refused.push_back(fmt::format("{} {}", key, why));
       }

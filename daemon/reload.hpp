@@ -13,13 +13,13 @@
 #include <string_view>
 #include <vector>
 
-#include "daemon/config.hpp"
-#include "daemon/control_loop.hpp"
+#include "loop/config.hpp"
+#include "loop/control_loop.hpp"
 
 namespace lpvmpcd {
 
 // The keys whose values differ, one of them missing included, in alphabetical order.
-[[nodiscard]] std::vector<std::string> ChangedKeys(const Config& before, const Config& after);
+[[nodiscard]] std::vector<std::string> ChangedKeys(const loop::Config& before, const loop::Config& after);
 
 // Why the key cannot be changed now; empty if it can.
 [[nodiscard]] std::string_view WhyNot(std::string_view key, bool commanding);
@@ -28,16 +28,16 @@ class Reloader {
  public:
   // `now`: what the daemon runs by. `load` reads it anew, with all that the command line overrides; it throws
   // std::exception. `loop` must outlive the reloader.
-  Reloader(Config now, std::function<Config()> load, ControlLoop& loop);
+  Reloader(loop::Config now, std::function<loop::Config()> load, loop::ControlLoop& loop);
 
   // Logs one line: what was taken, or why nothing was. Reads files, which may cost the cycle that is under way its
   // deadline, as any pause does.
   void Reload();
 
  private:
-  Config now_;
-  std::function<Config()> load_;
-  ControlLoop* loop_;
+  loop::Config now_;
+  std::function<loop::Config()> load_;
+  loop::ControlLoop* loop_;
 };
 
 }  // namespace lpvmpcd

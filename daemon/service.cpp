@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/system_call.hpp"
 #include "can/interface.hpp"
-#include "daemon/system_call.hpp"
 
 namespace lpvmpcd {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr int kFramesAtOnce = 4096;  // more than a full receive buffer holds; then it is the timer's turn
-constexpr Time kRetryPeriod = 100ms;
+constexpr base::Time kRetryPeriod = 100ms;
 
 int BlockedSignals() {
   sigset_t set;
@@ -31,10 +31,10 @@ int BlockedSignals() {
     sigaddset(&set, signal);
   }
   ::sigprocmask(SIG_BLOCK, &set, nullptr);
-  return Checked(::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC), "signalfd");
+  return base::Checked(::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC), "signalfd");
 }
 
-can::SocketOptions Options(const ControlLoop& loop) {
+can::SocketOptions Options(const loop::ControlLoop& loop) {
   can::SocketOptions options;
   for (const std::uint32_t id : loop.monitor().Ids()) {
     options.filters.push_back(can::ExactStandardId(id));
@@ -61,16 +61,16 @@ const char* WhyDown(can::SendStatus status, int error) {
 
 }  // namespace
 
-Service::Service(const ServiceSettings& settings, ControlLoop& loop, std::function<void()> reload)
+Service::Service(const loop::ServiceSettings& settings, loop::ControlLoop& loop, std::function<void()> reload)
     : settings_(settings),
       loop_(&loop),
       reload_(std::move(reload)),
       socket_(settings.interface, Options(loop)),
       signals_(BlockedSignals()),
-      epoll_(Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
+      epoll_(base::Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
       transmitter_(
-          loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }, MonotonicNow),
-      last_empty_(MonotonicNow()) {
+          loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }, base::MonotonicNow),
+      last_empty_(base::MonotonicNow()) {
   if (settings_.lockstep && !can::IsVirtual(settings_.interface)) {
     throw std::runtime_error("interface \"" + settings_.interface +
                              "\" is not a virtual one (vcan, vxcan), and lock step is for simulation only");
@@ -79,7 +79,7 @@ Service::Service(const ServiceSettings& settings, ControlLoop& loop, std::functi
     epoll_event event{};
     event.events = EPOLLIN;
     event.data.fd = fd;
-    static_cast<void>(Checked(::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event), "epoll_ctl"));
+    static_cast<void>(base::Checked(::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd, &event), "epoll_ctl"));
   }
 }
 
@@ -153,13 +153,13 @@ bool Service::ReactToSignals() {
   return true;
 }
 
-Time Service::Now() const {
-  return settings_.lockstep ? cycles_ * settings_.period : MonotonicNow();
+base::Time Service::Now() const {
+  return settings_.lockstep ? cycles_ * settings_.period : base::MonotonicNow();
 }
 
 // Of the states that wait here, after a pause, only the newest is answered: to the others the command would be late.
 void Service::ReadSocket() {
-  const Time before = MonotonicNow();
+  const base::Time before = base::MonotonicNow();
   bool complete = false;
   can::Received received;
   for (int i = 0; i < kFramesAtOnce; ++i) {
@@ -168,18 +168,19 @@ void Service::ReadSocket() {
       ReactToEmptyQueue(status, before);
       break;
     }
-    const Time arrival = ArrivalTime(MonotonicNow(), RealNow() - received.frame.timestamp, last_empty_);
+    const base::Time arrival =
+        base::ArrivalTime(base::MonotonicNow(), base::RealNow() - received.frame.timestamp, last_empty_);
     if (loop_->Receive(received.frame, settings_.lockstep ? Now() : arrival)) {
       complete = true;
       state_arrival_ = arrival;
     }
   }
   if (complete) {
-    RunCycle(Trigger::kState);
+    RunCycle(loop::Trigger::kState);
   }
 }
 
-void Service::ReactToEmptyQueue(can::ReceiveStatus status, Time before) {
+void Service::ReactToEmptyQueue(can::ReceiveStatus status, base::Time before) {
   switch (status) {
     case can::ReceiveStatus::kFrame:
       break;
@@ -203,22 +204,22 @@ void Service::ReactToTimer() {
     Send(loop_->Announce());  // the vehicle waits for a sign of life before its first state
     timer_.Set(settings_.period);
   } else {
-    RunCycle(Trigger::kTimer);
+    RunCycle(loop::Trigger::kTimer);
   }
 }
 
-void Service::RunCycle(Trigger trigger) {
+void Service::RunCycle(loop::Trigger trigger) {
   Send(loop_->Cycle(Now(), trigger));
   Arm(trigger);
-  if (trigger == Trigger::kState && transmitter_.commands_left()) {
-    const Time latency = *transmitter_.commands_left() - state_arrival_;
+  if (trigger == loop::Trigger::kState && transmitter_.commands_left()) {
+    const base::Time latency = *transmitter_.commands_left() - state_arrival_;
     latencies_.cycle.Add(latency);
     loop_->SetCycleLatency(latency);
   }
-  if (loop_->report().solver != dbc::SolverStatus::kNone) {
+  if (loop_->report().solver != bus::SolverStatus::kNone) {
     latencies_.step.Add(loop_->report().step_time);
   }
-  const Time now = MonotonicNow();
+  const base::Time now = base::MonotonicNow();
   log_.Cycle(*loop_, trigger, now);
   log_.Dropped(socket_.dropped(), now);
   log_.Unsent(transmitter_.unsent(), now);
@@ -248,11 +249,11 @@ void Service::SendLastWords() {
   }
 }
 
-void Service::Arm(Trigger last) {
+void Service::Arm(loop::Trigger last) {
   if (settings_.lockstep) {
     timer_.Set(kLockstepTimeout);
   } else {
-    timer_.Set(last == Trigger::kState ? settings_.timeout : settings_.period);
+    timer_.Set(last == loop::Trigger::kState ? settings_.timeout : settings_.period);
   }
 }
 
@@ -261,7 +262,7 @@ void Service::SetBus(BusState bus, const char* what) {
     return;
   }
   spdlog::log(bus > bus_ ? spdlog::level::err : spdlog::level::info, "{} {}", settings_.interface, what);
-  const Time retry = bus == BusState::kGone ? kRetryPeriod : 0s;
+  const base::Time retry = bus == BusState::kGone ? kRetryPeriod : 0s;
   retry_timer_.Set(retry, retry);
   bus_ = bus;
   loop_->SetBusUp(bus == BusState::kUp);

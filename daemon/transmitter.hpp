@@ -8,10 +8,10 @@
 #include <span>
 #include <utility>
 
+#include "base/time.hpp"
 #include "can/frame.hpp"
 #include "can/socket.hpp"
-#include "daemon/command_gate.hpp"
-#include "daemon/time.hpp"
+#include "safety/command_gate.hpp"
 
 namespace lpvmpcd {
 
@@ -23,7 +23,7 @@ class Transmitter {
 
   // `gate` must outlive the transmitter. A frame that may not be sent counts as one that the bus refuses
   // (kInvalidFrame). `clock` tells when commands have left.
-  Transmitter(const CommandGate& gate, SendFrame send, std::function<Time()> clock)
+  Transmitter(const safety::CommandGate& gate, SendFrame send, std::function<base::Time()> clock)
       : gate_(&gate), send_(std::move(send)), clock_(std::move(clock)) {}
 
   // In order, the pair of commands first; ends with the first frame that is not sent, so that neither an
@@ -37,7 +37,7 @@ class Transmitter {
 
   [[nodiscard]] BusState bus() const { return bus_; }
   // When the pair of commands of the last Send had left, its reports still to follow; nothing if it did not leave.
-  [[nodiscard]] std::optional<Time> commands_left() const { return commands_left_; }
+  [[nodiscard]] std::optional<base::Time> commands_left() const { return commands_left_; }
   // Of the last frame tried: the reason, if the bus is not up.
   [[nodiscard]] can::SendStatus last_status() const { return status_; }
   // Frames that a full queue refused, and those left unsent after them.
@@ -46,12 +46,12 @@ class Transmitter {
  private:
   [[nodiscard]] std::size_t SendInOrder(std::span<const can::Frame> frames);
 
-  const CommandGate* gate_;
+  const safety::CommandGate* gate_;
   SendFrame send_;
-  std::function<Time()> clock_;
+  std::function<base::Time()> clock_;
   BusState bus_ = BusState::kUp;
   can::SendStatus status_ = can::SendStatus::kSent;
-  std::optional<Time> commands_left_;
+  std::optional<base::Time> commands_left_;
   int refused_in_a_row_ = 0;  // commands
   std::uint64_t unsent_ = 0;
 };

@@ -39,18 +39,18 @@ can::Time Now() {
 
 }  // namespace
 
-std::vector<can::Filter> ControllerFilters(const dbc::VehicleBus& bus) {
+std::vector<can::Filter> ControllerFilters(const bus::VehicleBus& bus) {
   std::vector<can::Filter> filters;
   for (const char* name :
        {"SteeringCommand", "AccelerationCommand", "ControllerStatus", "ConstraintReport"}) {
-    const dbc::MessageInfo* info = bus.Find(std::string(name));
+    const bus::MessageInfo* info = bus.Find(std::string(name));
     if (info == nullptr) throw std::runtime_error(fmt::format("the bus has no message {}", name));
     filters.push_back(can::ExactStandardId(info->id));
   }
   return filters;
 }
 
-BusRun::BusRun(const Scenario& scenario, const dbc::VehicleBus& bus, can::Socket& socket,
+BusRun::BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket,
                const BusRunSettings& settings)
     : socket_(&socket),
       settings_(settings),

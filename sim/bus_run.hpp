@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/socket.hpp"
-#include "dbc/vehicle_bus.hpp"
 #include "sim/scenario.hpp"
 #include "sim/summary.hpp"
 #include "sim/virtual_vehicle.hpp"
@@ -26,12 +26,12 @@ struct BusRunSettings {
 };
 
 // The kernel filters for what the vehicle wants to hear. Throws std::runtime_error if the bus lacks a message.
-[[nodiscard]] std::vector<can::Filter> ControllerFilters(const dbc::VehicleBus& bus);
+[[nodiscard]] std::vector<can::Filter> ControllerFilters(const bus::VehicleBus& bus);
 
 class BusRun {
  public:
   // All references must outlive the run.
-  BusRun(const Scenario& scenario, const dbc::VehicleBus& bus, can::Socket& socket,
+  BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket,
          const BusRunSettings& settings);
   ~BusRun();
   BusRun(const BusRun&) = delete;

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-#include "dbc/messages.hpp"
+#include "bus/messages.hpp"
 
 namespace sim {
 
@@ -24,7 +24,7 @@ class Driver {
   explicit Driver(const DriverPlan& plan) : plan_(plan) {}
 
   // The request of one cycle at `time` [s], with the controller's mode as told last.
-  [[nodiscard]] dbc::DriverRequest Request(double time, dbc::Mode mode);
+  [[nodiscard]] bus::DriverRequest Request(double time, bus::Mode mode);
 
  private:
   DriverPlan plan_;

@@ -1,7 +1,7 @@
 // Distance of a point to an ellipse.
 #pragma once
 
-#include "control/types.hpp"
+#include "control/vehicle/types.hpp"
 
 namespace sim {
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "control/footprint.hpp"
-#include "control/types.hpp"
+#include "control/vehicle/footprint.hpp"
+#include "control/vehicle/types.hpp"
 
 namespace sim {
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/socket.hpp"
-#include "dbc/vehicle_bus.hpp"
 #include "sim/bus_run.hpp"
 #include "sim/options.hpp"
 #include "sim/scenario.hpp"
@@ -30,7 +30,7 @@ void BlockSignals() {
 
 int Drive(const sim::Options& options) {
   std::optional<sim::Scenario> scenario;
-  const dbc::VehicleBus bus;
+  const bus::VehicleBus bus;
   std::optional<can::Socket> socket;
   try {
     scenario = sim::LoadScenario(options.scenario);

@@ -1,6 +1,6 @@
 // A vehicle with four wheels moving in the plane: x, y and yaw (dual track, three degrees of freedom).
 //
-// State z = [X Y υ ν ψ ω] as in control/types.hpp, input u = [δ a]: both front wheels are steered by δ, and m a is
+// State z = [X Y υ ν ψ ω] as in control/vehicle/types.hpp, input u = [δ a]: both front wheels are steered by δ, and m a is
 // the longitudinal force asked of the tyres, shared among the wheels by their load; a < 0 brakes and never
 // reverses.
 //  - slip angle of a wheel: between its plane and the velocity of its own hub
@@ -16,8 +16,8 @@
 #include <array>
 #include <cstddef>
 
-#include "control/types.hpp"
-#include "control/vehicle_parameters.hpp"
+#include "control/vehicle/types.hpp"
+#include "control/vehicle/vehicle_parameters.hpp"
 
 namespace sim {
 

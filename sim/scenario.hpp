@@ -31,7 +31,7 @@
 //   heading = 0.0                     # then relative to the route [rad]
 //   r_x = 1.0
 //   r_y = 0.5
-//   [vehicle]                         # its rectangle on the road, and deviations from control/vehicle_parameters.hpp
+//   [vehicle]                         # its rectangle on the road, and deviations from control/vehicle/vehicle_parameters.hpp
 //   front = 0.0                       # from the centre of gravity to the front end [m]
 //   rear = 0.0                        # and to the rear end [m]
 //   width = 0.0                       # [m]; all three 0: a point
@@ -72,9 +72,9 @@
 #include <utility>
 #include <vector>
 
-#include "control/footprint.hpp"
-#include "control/route.hpp"
-#include "control/types.hpp"
+#include "control/road/route.hpp"
+#include "control/vehicle/footprint.hpp"
+#include "control/vehicle/types.hpp"
 #include "sim/actuator.hpp"
 #include "sim/driver.hpp"
 #include "sim/plant.hpp"

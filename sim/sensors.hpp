@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "control/types.hpp"
+#include "control/vehicle/types.hpp"
 
 namespace sim {
 

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/percentile.hpp"
 #include "sim/footprint_distance.hpp"
-#include "sim/percentile.hpp"
 
 namespace sim {
 namespace {
@@ -49,26 +49,26 @@ std::string OrDash(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f} m", *value) : "-";
 }
 
-const char* NameOf(dbc::ConstraintVerdict verdict) {
+const char* NameOf(bus::ConstraintVerdict verdict) {
   constexpr std::array kNames{"met", "relaxed", "unsolved", "rejected"};
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
-const char* NameOf(dbc::ConstraintName constraint) {
+const char* NameOf(bus::ConstraintName constraint) {
   constexpr std::array kNames{"model", "input", "rate", "state", "road", "obstacle", "friction", "trust"};
   return kNames[static_cast<std::size_t>(constraint)];
 }
 
 nlohmann::ordered_json UnmetJson(const std::optional<UnmetConstraint>& unmet) {
   if (!unmet) return nullptr;
-  const dbc::ConstraintReport& report = unmet->report;
+  const bus::ConstraintReport& report = unmet->report;
   return {
       {"step", unmet->step},   {"verdict", NameOf(report.verdict)}, {"constraint", NameOf(report.constraint)},
       {"index", report.index}, {"horizon_step", report.step},       {"amount", report.amount}};
 }
 
 std::string UnmetText(const UnmetConstraint& unmet) {
-  const dbc::ConstraintReport& report = unmet.report;
+  const bus::ConstraintReport& report = unmet.report;
   return fmt::format("step {}: {} {} at i = {}, by {:.3f} ({})", unmet.step, NameOf(report.constraint),
                      report.index, report.step, report.amount, NameOf(report.verdict));
 }
@@ -77,9 +77,9 @@ std::string UnmetText(const UnmetConstraint& unmet) {
 
 void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
   if (!vehicle.status_is_new()) return;
-  const dbc::ControllerStatus& status = vehicle.status();
+  const bus::ControllerStatus& status = vehicle.status();
   if (Drives(status.mode)) {
-    if (status.solver_status != dbc::SolverStatus::kSolved) ++summary_.infeasible_steps;
+    if (status.solver_status != bus::SolverStatus::kSolved) ++summary_.infeasible_steps;
     solve_times_us_.push_back(static_cast<int>(std::lround(status.solve_time * 1e6)));
   }
   if (last_misses_) {
@@ -91,8 +91,8 @@ void Recorder::RecordStatus(const VirtualVehicle& vehicle) {
 void Recorder::RecordUnmet(const VirtualVehicle& vehicle) {
   const auto& unmet = vehicle.unmet();
   if (!unmet) return;
-  if (unmet->verdict == dbc::ConstraintVerdict::kRelaxed) ++summary_.relaxed_steps;
-  if (unmet->verdict == dbc::ConstraintVerdict::kRejected) ++summary_.rejected_plans;
+  if (unmet->verdict == bus::ConstraintVerdict::kRelaxed) ++summary_.relaxed_steps;
+  if (unmet->verdict == bus::ConstraintVerdict::kRejected) ++summary_.rejected_plans;
   const UnmetConstraint now{.step = summary_.steps - 1, .report = *unmet};
   if (!summary_.first_unmet) summary_.first_unmet = now;
   if (!summary_.worst_unmet || unmet->amount > summary_.worst_unmet->report.amount)
@@ -133,7 +133,7 @@ void Recorder::RecordPlace(const VirtualVehicle& vehicle, double lateral) {
 }
 
 bool Recorder::EndReached(const VirtualVehicle& vehicle) const {
-  const bool route_end_told = engaged_ && vehicle.status().fault_code == dbc::FaultCode::kRouteEnd;
+  const bool route_end_told = engaged_ && vehicle.status().fault_code == bus::FaultCode::kRouteEnd;
   return route_end_told || arc_length_ >= scenario_->route.length() ||
          (scenario_->duration && vehicle.time() + kCycleTime >= *scenario_->duration - 1e-9);
 }
@@ -146,7 +146,7 @@ void Recorder::Record(const VirtualVehicle& vehicle) {
   }
   const control::RouteProjection place = scenario_->route.Project({z[control::kX], z[control::kY]}, hint_);
   hint_ = arc_length_ = place.s;
-  engaged_ = engaged_ || vehicle.mode() == dbc::Mode::kActive;
+  engaged_ = engaged_ || vehicle.mode() == bus::Mode::kActive;
   if (engaged_) {
     ++summary_.steps;
     RecordStatus(vehicle);
@@ -158,7 +158,7 @@ void Recorder::Record(const VirtualVehicle& vehicle) {
   if (EndReached(vehicle)) {
     finished_ = true;
     summary_.completed =
-        engaged_ && (Drives(vehicle.mode()) || vehicle.status().fault_code == dbc::FaultCode::kRouteEnd);
+        engaged_ && (Drives(vehicle.mode()) || vehicle.status().fault_code == bus::FaultCode::kRouteEnd);
   } else if (!scenario_->duration) {
     const bool stands = standing_cycles_ >= kStandstillCycles && !Drives(vehicle.mode());
     finished_ = stands || vehicle.time() > 2.0 * scenario_->route.duration() + 10.0;
@@ -173,9 +173,9 @@ Summary Recorder::Result() const {
   }
   std::vector<int> sorted = solve_times_us_;
   std::ranges::sort(sorted);
-  summary.solve_time_median_us = Percentile(sorted, 0.5);
-  summary.solve_time_p99_us = Percentile(sorted, 0.99);
-  summary.solve_time_max_us = Percentile(sorted, 1.0);
+  summary.solve_time_median_us = base::Percentile(sorted, 0.5);
+  summary.solve_time_p99_us = base::Percentile(sorted, 0.99);
+  summary.solve_time_max_us = base::Percentile(sorted, 1.0);
 
   const Expectations& expect = scenario_->expect;
   if (summary.completed != expect.completed) {

@@ -16,7 +16,7 @@ namespace sim {
 // What a controller could not meet, as it told on the bus. On a real bus that may be heard in the cycle after.
 struct UnmetConstraint {
   std::int64_t step = 0;  // of the drive, from 0
-  dbc::ConstraintReport report;
+  bus::ConstraintReport report;
 };
 
 struct Summary {

@@ -5,27 +5,27 @@
 #include <optional>
 #include <variant>
 
-#include "control/keep_out.hpp"
+#include "control/road/keep_out.hpp"
 #include "dbc/e2e.hpp"
 
 namespace sim {
 namespace {
 
-dbc::PassingSide OnBus(control::PassingSide side) {
+bus::PassingSide OnBus(control::PassingSide side) {
   switch (side) {
     case control::PassingSide::kLeft:
-      return dbc::PassingSide::kLeft;
+      return bus::PassingSide::kLeft;
     case control::PassingSide::kRight:
-      return dbc::PassingSide::kRight;
+      return bus::PassingSide::kRight;
     case control::PassingSide::kUnknown:
       break;
   }
-  return dbc::PassingSide::kUnknown;
+  return bus::PassingSide::kUnknown;
 }
 
 }  // namespace
 
-VirtualVehicle::VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& bus)
+VirtualVehicle::VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& bus)
     : bus_(&bus),
       plant_(scenario.plant, scenario.initial),
       steering_actuator_(scenario.steering, scenario.initial_delta),
@@ -41,8 +41,8 @@ std::uint8_t VirtualVehicle::StateCounter() const {
   return static_cast<std::uint8_t>(cycle_ % dbc::kCounterModulus);
 }
 
-void VirtualVehicle::Emit(const dbc::Message& message, std::uint8_t counter, can::Time now) {
-  dbc::RawMessage raw;
+void VirtualVehicle::Emit(const bus::Message& message, std::uint8_t counter, can::Time now) {
+  bus::RawMessage raw;
   if (bus_->Encode(message, counter, raw) == dbc::EncodeStatus::kNotFinite) return;
   can::Frame frame{.id = raw.id, .length = raw.length, .timestamp = now};
   std::ranges::copy(raw.data, frame.data.begin());
@@ -55,7 +55,7 @@ bool VirtualVehicle::Perceives(const control::Obstacle& obstacle) const {
 }
 
 void VirtualVehicle::EmitObstacles(can::Time now) {
-  const auto emit = [&](const dbc::Message& message) {
+  const auto emit = [&](const bus::Message& message) {
     Emit(message, object_counter_, now);
     object_counter_ = dbc::NextCounter(object_counter_);
   };
@@ -64,16 +64,16 @@ void VirtualVehicle::EmitObstacles(can::Time now) {
     if (!Perceives(obstacle)) continue;
     ++count;
     const auto id = static_cast<std::uint8_t>(obstacle.id);
-    emit(dbc::ObstaclePosition{.object_id = id, .X = obstacle.X, .Y = obstacle.Y});
-    emit(dbc::ObstacleShape{.object_id = id,
+    emit(bus::ObstaclePosition{.object_id = id, .X = obstacle.X, .Y = obstacle.Y});
+    emit(bus::ObstacleShape{.object_id = id,
                             .semi_axis_x = obstacle.r_x,
                             .semi_axis_y = obstacle.r_y,
                             .heading = obstacle.heading,
                             .passing_side = OnBus(obstacle.side)});
-    emit(dbc::ObstacleMotion{
+    emit(bus::ObstacleMotion{
         .object_id = id, .velocity_X = obstacle.velocity_X, .velocity_Y = obstacle.velocity_Y});
   }
-  Emit(dbc::ObstacleList{.count = count}, list_counter_, now);
+  Emit(bus::ObstacleList{.count = count}, list_counter_, now);
   list_counter_ = dbc::NextCounter(list_counter_);
 }
 
@@ -84,11 +84,11 @@ std::span<const can::Frame> VirtualVehicle::Sense(can::Time now) {
   EmitObstacles(now);
 
   const control::State z = sensors_.Measure(plant_.state());
-  Emit(dbc::VehiclePose{.X = z[control::kX], .Y = z[control::kY]}, StateCounter(), now);
+  Emit(bus::VehiclePose{.X = z[control::kX], .Y = z[control::kY]}, StateCounter(), now);
   Emit(
-      dbc::VehicleMotion{.upsilon = z[control::kUpsilon], .nu = z[control::kNu], .omega = z[control::kOmega]},
+      bus::VehicleMotion{.upsilon = z[control::kUpsilon], .nu = z[control::kNu], .omega = z[control::kOmega]},
       StateCounter(), now);
-  Emit(dbc::VehicleFeedback{.psi = control::WrapAngle(z[control::kPsi]),
+  Emit(bus::VehicleFeedback{.psi = control::WrapAngle(z[control::kPsi]),
                             .delta = steering_actuator_.value(),
                             .acceleration = acceleration_actuator_.value()},
        StateCounter(), now);
@@ -106,24 +106,24 @@ void VirtualVehicle::Take(const Command& command, double value, Channel& channel
 void VirtualVehicle::Receive(const can::Frame& frame) {
   if (frame.kind != can::FrameKind::kData || frame.extended || frame.fd) return;
   if (bus_->Find(frame.id) == nullptr) return;
-  if (bus_->Check(frame.id, frame.Payload()).verdict != dbc::E2eVerdict::kOk) {
+  if (bus_->Check(frame.id, frame.Payload()).verdict != bus::E2eVerdict::kOk) {
     ++rejected_frames_;
     return;
   }
-  const std::optional<dbc::Message> message = bus_->Decode(frame.id, frame.Payload());
+  const std::optional<bus::Message> message = bus_->Decode(frame.id, frame.Payload());
   if (!message) {
     ++rejected_frames_;
-  } else if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+  } else if (const auto* steering = std::get_if<bus::SteeringCommand>(&*message)) {
     Take(*steering, steering->delta, steering_);
-  } else if (const auto* acceleration = std::get_if<dbc::AccelerationCommand>(&*message)) {
+  } else if (const auto* acceleration = std::get_if<bus::AccelerationCommand>(&*message)) {
     Take(*acceleration, acceleration->acceleration, acceleration_);
-  } else if (const auto* status = std::get_if<dbc::ControllerStatus>(&*message)) {
+  } else if (const auto* status = std::get_if<bus::ControllerStatus>(&*message)) {
     status_ = *status;
     status_is_new_ = true;
     status_after_ = steering_.answered && acceleration_.answered;
     heard_ = true;
-  } else if (const auto* report = std::get_if<dbc::ConstraintReport>(&*message)) {
-    if (report->verdict != dbc::ConstraintVerdict::kMet) unmet_ = *report;
+  } else if (const auto* report = std::get_if<bus::ConstraintReport>(&*message)) {
+    if (report->verdict != bus::ConstraintVerdict::kMet) unmet_ = *report;
   }
 }
 
@@ -164,7 +164,7 @@ void VirtualVehicle::Advance() {
 std::vector<control::Obstacle> VirtualVehicle::ObstaclesNow() const {
   std::vector<control::Obstacle> obstacles = obstacles_;
   for (control::Obstacle& obstacle : obstacles) {
-    obstacle = control::Moved(obstacle, time());
+    obstacle = control::Predict(obstacle, time());
   }
   return obstacles;
 }

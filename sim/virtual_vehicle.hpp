@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/frame.hpp"
-#include "dbc/vehicle_bus.hpp"
 #include "sim/actuator.hpp"
 #include "sim/driver.hpp"
 #include "sim/plant.hpp"
@@ -35,7 +35,7 @@ inline constexpr double kIntegrationStep = 1e-3;     // [s]
 class VirtualVehicle {
  public:
   // `bus` must outlive the vehicle.
-  VirtualVehicle(const Scenario& scenario, const dbc::VehicleBus& bus);
+  VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& bus);
 
   // The frames of one cycle, stamped `now`, once per cycle: DriverRequest, three of ObstacleObject for each
   // obstacle that has appeared, ObstacleList, then the state set: VehiclePose, VehicleMotion, VehicleFeedback. They stay until
@@ -63,11 +63,11 @@ class VirtualVehicle {
   [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;  // those not perceived, too
 
   // What the controller told last.
-  [[nodiscard]] dbc::Mode mode() const { return status_.mode; }
-  [[nodiscard]] const dbc::ControllerStatus& status() const { return status_; }
+  [[nodiscard]] bus::Mode mode() const { return status_.mode; }
+  [[nodiscard]] const bus::ControllerStatus& status() const { return status_; }
   [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // came since the last Advance()
   // What the controller could not meet, if it told so since the last Advance().
-  [[nodiscard]] const std::optional<dbc::ConstraintReport>& unmet() const { return unmet_; }
+  [[nodiscard]] const std::optional<bus::ConstraintReport>& unmet() const { return unmet_; }
   [[nodiscard]] bool heard() const { return heard_; }  // any status came at all
   // Frames with a wrong CRC or length, or the invalid counter.
   [[nodiscard]] std::uint64_t rejected_frames() const { return rejected_frames_; }
@@ -85,7 +85,7 @@ class VirtualVehicle {
     [[nodiscard]] bool Obeyed() const { return enable && age < kCommandLifetime; }
   };
 
-  void Emit(const dbc::Message& message, std::uint8_t counter, can::Time now);
+  void Emit(const bus::Message& message, std::uint8_t counter, can::Time now);
   void EmitObstacles(can::Time now);
   [[nodiscard]] bool Perceives(const control::Obstacle& obstacle) const;
   [[nodiscard]] std::uint8_t StateCounter() const;
@@ -93,7 +93,7 @@ class VirtualVehicle {
   void Take(const Command& command, double value, Channel& channel) const;
   static void Apply(const Channel& channel, double by_driver, Actuator& actuator);
 
-  const dbc::VehicleBus* bus_;
+  const bus::VehicleBus* bus_;
   Plant plant_;
   Actuator steering_actuator_;
   Actuator acceleration_actuator_;
@@ -111,9 +111,9 @@ class VirtualVehicle {
   Channel steering_;
   Channel acceleration_;
   bool obeyed_ = false;  // at some time
-  dbc::ControllerStatus status_;
+  bus::ControllerStatus status_;
   bool status_is_new_ = false;
-  std::optional<dbc::ConstraintReport> unmet_;
+  std::optional<bus::ConstraintReport> unmet_;
   bool status_after_ = false;
   bool heard_ = false;
   std::uint64_t rejected_frames_ = 0;

@@ -14,14 +14,14 @@
 #include <CLI/CLI.hpp>
 
 #include "config/text_file.hpp"
-#include "daemon/config.hpp"
-#include "tools/bench_qp.hpp"
-#include "tools/bench_step.hpp"
-#include "tools/decode.hpp"
+#include "loop/config.hpp"
+#include "tools/bench/bench_qp.hpp"
+#include "tools/bench/bench_step.hpp"
+#include "tools/commands/decode.hpp"
+#include "tools/commands/report.hpp"
+#include "tools/commands/run.hpp"
 #include "tools/paper/paper.hpp"
-#include "tools/report.hpp"
-#include "tools/run.hpp"
-#include "tools/sweep/scenario_seed.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
 #include "tools/sweep/sweep.hpp"
 #include "tools/sweep/sweep_config.hpp"
 
@@ -63,7 +63,7 @@ void RequireOption(const CLI::App& command, const char* option) {
 }
 
 // "--speed LO HI" and "--mu LO HI".
-void AddRanges(CLI::App& command, tools::SweepRanges& ranges) {
+void AddRanges(CLI::App& command, tools::ScenarioRanges& ranges) {
   const auto add = [&command](const char* option, tools::Interval& range, const std::string& what) {
     command
         .add_option_function<std::vector<double>>(
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
       "output.");
   app.set_version_flag("--version", "lpvmpc " LPVMPC_VERSION);
 
-  const std::string controllers = fmt::format("{}", fmt::join(lpvmpcd::ControllerNames(), ", "));
+  const std::string controllers = fmt::format("{}", fmt::join(loop::ControllerNames(), ", "));
   tools::RunOptions run;
   CLI::App* run_command = app.add_subcommand("run", "drive a scenario in memory, without a bus");
   CLI::Option* scenario = run_command->add_option("--scenario", run.scenario, "scenario in TOML");

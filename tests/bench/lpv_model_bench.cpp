@@ -1,7 +1,7 @@
 // The matrices A(p), B(p) of one stage.
 #include <benchmark/benchmark.h>
 
-#include "control/lpv_model.hpp"
+#include "control/vehicle/lpv_model.hpp"
 
 namespace control {
 namespace {

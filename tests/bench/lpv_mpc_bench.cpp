@@ -1,8 +1,8 @@
 // A whole control step in closed loop on a straight road past an obstacle: mean over the drive.
 #include <benchmark/benchmark.h>
 
-#include "control/lpv_mpc.hpp"
-#include "tests/control/closed_loop.hpp"
+#include "control/mpc/lpv_mpc.hpp"
+#include "tests/control/mpc/closed_loop.hpp"
 
 namespace control {
 namespace {
@@ -13,7 +13,7 @@ void ControlStep(benchmark::State& state, Discretisation method) {
   settings.discretisation = method;
   settings.horizon = static_cast<int>(state.range(0));
   LpvMpc mpc(VehicleParameters{}, settings);
-  const Reference reference = testing::StraightPath(200, 12.0);
+  const TimeReference reference = testing::StraightPath(200, 12.0);
   const auto start = [&] {
     mpc.Reset();
     testing::ClosedLoop loop(mpc, reference);

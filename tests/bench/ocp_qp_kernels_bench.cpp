@@ -5,10 +5,10 @@
 #include <benchmark/benchmark.h>
 #include <string>
 
-#include "control/dual_active_set.hpp"
-#include "control/ocp_qp_solver_impl.hpp"
+#include "control/qp/dual_active_set.hpp"
+#include "control/qp/ocp_qp_solver_impl.hpp"
 #include "tests/control/random.hpp"
-#include "tools/qp_instance.hpp"
+#include "tools/bench/qp_instance.hpp"
 
 namespace control {
 

@@ -3,8 +3,8 @@
 #include <benchmark/benchmark.h>
 #include <string>
 
-#include "control/ocp_qp_solver.hpp"
-#include "tools/qp_instance.hpp"
+#include "control/qp/ocp_qp_solver.hpp"
+#include "tools/bench/qp_instance.hpp"
 
 namespace control {
 namespace {

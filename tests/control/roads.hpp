@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "control/route.hpp"
+#include "control/road/route.hpp"
 
 namespace control::testing {
 

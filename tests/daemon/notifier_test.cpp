@@ -43,7 +43,7 @@ class NotifierTest : public testing::Test {
 
   test_support::TempDir folder_;
   int socket_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  Latencies latencies_;
+  base::Latencies latencies_;
 };
 
 TEST_F(NotifierTest, FeedsTheWatchdogAtLeastTwiceInItsPeriodAndOnlyByCycles) {
@@ -53,9 +53,9 @@ TEST_F(NotifierTest, FeedsTheWatchdogAtLeastTwiceInItsPeriodAndOnlyByCycles) {
   notifier.Ready();
   EXPECT_EQ(Told(), std::vector<std::string>{"READY=1"});
   // Cycles as slow as the slowest timeout that leaves room for two in a period.
-  for (const Time cycle : {Time(10ms), Time(75ms), Time(250ms)}) {
-    Time last{};
-    for (Time now = 0s; now <= 10s; now += cycle) {
+  for (const base::Time cycle : {base::Time(10ms), base::Time(75ms), base::Time(250ms)}) {
+    base::Time last{};
+    for (base::Time now = 0s; now <= 10s; now += cycle) {
       notifier.Cycle({}, latencies_, now);
       for (const std::string& text : Told()) {
         if (text != "WATCHDOG=1") continue;
@@ -94,9 +94,9 @@ TEST_F(NotifierTest, StatusComesAtOnceWithAChangeAndOtherwiseOnceASecond) {
   EXPECT_EQ(Told().size(), 1U);
   notifier.Cycle({}, latencies_, 1500ms);
   EXPECT_EQ(Told().size(), 0U);
-  notifier.Cycle({.mode = Mode::kStandby}, latencies_, 1600ms);
+  notifier.Cycle({.mode = bus::Mode::kStandby}, latencies_, 1600ms);
   EXPECT_EQ(Told().size(), 1U);
-  notifier.Cycle({.mode = Mode::kStandby, .fault = dbc::FaultCode::kOffRoute}, latencies_, 1700ms);
+  notifier.Cycle({.mode = bus::Mode::kStandby, .fault = bus::FaultCode::kOffRoute}, latencies_, 1700ms);
   EXPECT_THAT(Told().front(), StartsWith("STATUS=Standby; not on the route or too slow"));
 }
 

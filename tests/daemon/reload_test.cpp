@@ -16,9 +16,9 @@ const std::string kRoute = "[route]\nfile = \"route.toml\"\n";
 
 class ReloadTest : public testing::Test {
  protected:
-  Config Load(const std::string& text) const {
+  loop::Config Load(const std::string& text) const {
     std::ofstream(folder_ / "daemon.toml") << kRoute + text;
-    return LoadConfig(folder_ / "daemon.toml");
+    return loop::LoadConfig(folder_ / "daemon.toml");
   }
   std::vector<std::string> Changed(const std::string& before, const std::string& after) const {
     return ChangedKeys(Load(before), Load(after));
@@ -45,14 +45,14 @@ TEST_F(ReloadTest, KeysWrittenAnewAndNoMoreAreChangesInAlphabeticalOrder) {
 }
 
 TEST_F(ReloadTest, WhatTheCommandLineOverridesIsNoChange) {
-  Config before =
+  loop::Config before =
       Load("[bus]\ninterface = \"can0\"\n[cycle]\nlockstep = false\n[controller]\nkind = \"lpv\"\n");
-  Config after = Load("[bus]\ninterface = \"can1\"\n[controller]\nkind = \"lpv-standard\"\n");
+  loop::Config after = Load("[bus]\ninterface = \"can1\"\n[controller]\nkind = \"lpv-standard\"\n");
   EXPECT_EQ(ChangedKeys(before, after).size(), 3U);
-  for (Config* config : {&before, &after}) {
-    SelectInterface(*config, "vcan0");
-    SelectController(*config, "lpv");
-    SelectLockstep(*config);
+  for (loop::Config* config : {&before, &after}) {
+    loop::SelectInterface(*config, "vcan0");
+    loop::SelectController(*config, "lpv");
+    loop::SelectLockstep(*config);
   }
   EXPECT_THAT(ChangedKeys(before, after), IsEmpty());
 }

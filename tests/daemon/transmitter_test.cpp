@@ -20,8 +20,8 @@ class TransmitterTest : public testing::Test {
   int room_ = 100;
   SendStatus otherwise_ = SendStatus::kQueueFull;
   std::vector<std::uint32_t> sent_;
-  dbc::VehicleBus bus_;
-  CommandGate gate_{bus_};
+  bus::VehicleBus bus_;
+  safety::CommandGate gate_{bus_};
   Transmitter transmitter_{gate_,
                            [this](const can::Frame& frame) {
                              if (room_ <= 0) return otherwise_;
@@ -30,7 +30,7 @@ class TransmitterTest : public testing::Test {
                              return SendStatus::kSent;
                            },
                            [this] {
-                             return Time(static_cast<std::int64_t>(sent_.size()));
+                             return base::Time(static_cast<std::int64_t>(sent_.size()));
                            }};  // a clock that counts the frames sent
   const std::vector<can::Frame> pair_ = Commands();
   const std::vector<can::Frame> cycle_ = CommandsAndReports();
@@ -38,15 +38,15 @@ class TransmitterTest : public testing::Test {
 
   std::vector<can::Frame> Commands() {
     std::array<can::Frame, 2> pair;
-    const auto limited = control::CommandLimiter({}).Limit({0.0, 0.0}, {0.0, 0.0}, 0);
+    const auto limited = safety::CommandLimiter({}).Limit({0.0, 0.0}, {0.0, 0.0}, 0);
     EXPECT_TRUE(gate_.Encode(*limited.command, {}, pair));
     return {pair.begin(), pair.end()};
   }
   std::vector<can::Frame> CommandsAndReports() {
     std::vector<can::Frame> frames = Commands();
     frames.resize(4);
-    EXPECT_TRUE(gate_.Encode(dbc::ControllerStatus{}, frames[2]));
-    EXPECT_TRUE(gate_.Encode(dbc::SchedulingHealth{}, frames[3]));
+    EXPECT_TRUE(gate_.Encode(bus::ControllerStatus{}, frames[2]));
+    EXPECT_TRUE(gate_.Encode(bus::SchedulingHealth{}, frames[3]));
     return frames;
   }
 };
@@ -59,13 +59,13 @@ TEST_F(TransmitterTest, AllFramesGoOutInOrder) {
 
 TEST_F(TransmitterTest, TellsWhenBothCommandsHadLeftAndTheReportsHadNot) {
   transmitter_.Send(cycle_);
-  EXPECT_EQ(transmitter_.commands_left(), Time(2));
+  EXPECT_EQ(transmitter_.commands_left(), base::Time(2));
   Refill(1);
   transmitter_.Send(cycle_);
   EXPECT_EQ(transmitter_.commands_left(), std::nullopt);
   Refill(2);
   transmitter_.Send(cycle_);
-  EXPECT_EQ(transmitter_.commands_left(), Time(2));
+  EXPECT_EQ(transmitter_.commands_left(), base::Time(2));
 }
 
 TEST_F(TransmitterTest, QueueTooShortForTheReportsIsNoBusDown) {
@@ -97,7 +97,7 @@ TEST_F(TransmitterTest, NothingFollowsAFrameThatIsNotSent) {
   Transmitter transmitter(
       gate_,
       [&calls](const can::Frame&) { return ++calls == 1 ? SendStatus::kQueueFull : SendStatus::kSent; },
-      [] { return Time{}; });
+      [] { return base::Time{}; });
   transmitter.Send(cycle_);
   EXPECT_EQ(calls, 1);  // no acceleration without its steering
 }

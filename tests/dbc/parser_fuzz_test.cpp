@@ -4,9 +4,9 @@
 #include <random>
 #include <string>
 
+#include "bus/vehicle_bus.hpp"
 #include "dbc/codec.hpp"
 #include "dbc/parser.hpp"
-#include "dbc/vehicle_bus.hpp"
 
 namespace {
 
@@ -80,7 +80,7 @@ void Use(const dbc::Database& database) {
 
 TEST(ParserFuzz, DamagedTextIsReadOrRefused) {
   std::mt19937 random(20);
-  const std::string original(dbc::BuiltInDbc());
+  const std::string original(bus::BuiltInDbc());
   int read = 0;
   int refused = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -100,7 +100,7 @@ TEST(ParserFuzz, DamagedTextIsReadOrRefused) {
 }
 
 TEST(ParserFuzz, EveryBeginningOfTheFileIsReadOrRefused) {
-  const std::string original(dbc::BuiltInDbc());
+  const std::string original(bus::BuiltInDbc());
   for (std::size_t length = 0; length < original.size(); length += 7) {
     try {
       Use(dbc::Parse(std::string_view(original).substr(0, length), "beginning.dbc"));

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/socket.hpp"
-#include "daemon/mode_machine.hpp"
-#include "dbc/vehicle_bus.hpp"
-#include "tests/daemon/bus_frames.hpp"
+#include "safety/mode_machine.hpp"
+#include "tests/bus/bus_frames.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -27,8 +27,8 @@ inline constexpr const char* kStraightRoute =
     "pieces = [{kind = \"straight\", length = 1000.0}]\n[road]\nleft = 4.0\nright = 4.0\n";
 
 struct CommandPair {
-  dbc::SteeringCommand steering;
-  dbc::AccelerationCommand acceleration;
+  bus::SteeringCommand steering;
+  bus::AccelerationCommand acceleration;
 };
 
 class DaemonOnBus : public testing::Test {
@@ -73,22 +73,22 @@ class DaemonOnBus : public testing::Test {
         ADD_FAILURE() << "a frame that is none of ours: " << frame.id;
         continue;
       }
-      const dbc::E2eCheck check = bus_.Check(frame.id, frame.Payload());
-      if (const auto* status = std::get_if<dbc::ControllerStatus>(&*message)) {
-        EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+      const bus::E2eCheck check = bus_.Check(frame.id, frame.Payload());
+      if (const auto* status = std::get_if<bus::ControllerStatus>(&*message)) {
+        EXPECT_EQ(check.verdict, bus::E2eVerdict::kOk);
         status_ = *status;
-      } else if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
-        EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+      } else if (const auto* steering = std::get_if<bus::SteeringCommand>(&*message)) {
+        EXPECT_EQ(check.verdict, bus::E2eVerdict::kOk);
         if (command_counter_) {
           EXPECT_EQ(check.counter, dbc::NextCounter(*command_counter_));
         }
         command_counter_ = check.counter;
         pair_.steering = *steering;
-      } else if (const auto* acceleration = std::get_if<dbc::AccelerationCommand>(&*message)) {
-        EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+      } else if (const auto* acceleration = std::get_if<bus::AccelerationCommand>(&*message)) {
+        EXPECT_EQ(check.verdict, bus::E2eVerdict::kOk);
         EXPECT_EQ(check.counter, command_counter_);
         pair_.acceleration = *acceleration;
-        const bool enable = Commands(pair_.steering.mode);
+        const bool enable = bus::Commands(pair_.steering.mode);
         EXPECT_EQ(pair_.steering.enable, enable);
         EXPECT_EQ(pair_.acceleration.enable, enable);
         EXPECT_EQ(pair_.acceleration.mode, pair_.steering.mode);
@@ -140,7 +140,7 @@ class DaemonOnBus : public testing::Test {
       PeriodWithoutState(state());
       while (const auto pair = NextPair(1ms)) {
         pairs.push_back(*pair);
-        if (pair->steering.mode == dbc::Mode::kSafeStop) return pairs;
+        if (pair->steering.mode == bus::Mode::kSafeStop) return pairs;
       }
     }
     ADD_FAILURE() << "no SafeStop; the daemon says:\n" << daemon_->Stderr();
@@ -149,15 +149,15 @@ class DaemonOnBus : public testing::Test {
   // From start to Active.
   void Engage() {
     vehicle_.request.engage = false;
-    for (int i = 0; i < 50 && Period().steering.mode != dbc::Mode::kStandby; ++i) {
+    for (int i = 0; i < 50 && Period().steering.mode != bus::Mode::kStandby; ++i) {
     }
     Period();
     vehicle_.request.engage = true;
     const CommandPair pair = Period();
-    ASSERT_EQ(pair.steering.mode, dbc::Mode::kActive) << daemon_->Stderr();
+    ASSERT_EQ(pair.steering.mode, bus::Mode::kActive) << daemon_->Stderr();
   }
   // The fault that the status tells; the status follows its commands.
-  dbc::FaultCode Fault() {
+  bus::FaultCode Fault() {
     const auto end = steady_clock::now() + 300ms;
     while (steady_clock::now() < end && !NextPair(10ms)) {
     }
@@ -166,13 +166,13 @@ class DaemonOnBus : public testing::Test {
 
   std::string interface_;
   test_support::TempDir folder_;
-  dbc::VehicleBus bus_;
-  FakeVehicle vehicle_{bus_};
+  bus::VehicleBus bus_;
+  bus::FakeVehicle vehicle_{bus_};
   can::Socket socket_{interface_};
   std::optional<test_support::Process> daemon_;
   std::optional<std::uint8_t> command_counter_;
   CommandPair pair_;  // under way
-  dbc::ControllerStatus status_;
+  bus::ControllerStatus status_;
 };
 
 }  // namespace lpvmpcd

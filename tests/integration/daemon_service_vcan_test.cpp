@@ -13,7 +13,7 @@
 namespace lpvmpcd {
 namespace {
 
-using dbc::Mode;
+using bus::Mode;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -52,7 +52,7 @@ TEST_F(DaemonService, GetsTheRealTimeThatItAsksForAndSaysSo) {
     EXPECT_GT(std::stoi(test_support::KernelSays(daemon_->pid(), "VmLck")), 1000);
   }
   Engage();
-  EXPECT_EQ(Period().steering.mode, Mode::kActive);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);
   EXPECT_LT(std::stoi(test_support::KernelSays(daemon_->pid(), "VmRSS")), 20 * 1024) << "kB";
   std::printf("resident with locked memory: %s\n", test_support::KernelSays(daemon_->pid(), "VmRSS").c_str());
 }
@@ -66,7 +66,7 @@ TEST_F(DaemonService, RunsWithoutTheRealTimeThatItIsRefusedAndNamesIt) {
   EXPECT_TRUE(LogSays("real time: fifo_priority 10 refused: Operation not permitted"));
   EXPECT_TRUE(LogSays("real time: cpus 0"));
   Engage();
-  EXPECT_EQ(Period().steering.mode, Mode::kActive);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);
 }
 
 TEST_F(DaemonService, ReloadTakesAllOrNothing) {
@@ -77,13 +77,13 @@ TEST_F(DaemonService, ReloadTakesAllOrNothing) {
   EXPECT_TRUE(
       LogSays("configuration not reloaded: engage.min_speed cannot change while commands are enabled"));
   vehicle_.request.engage = false;
-  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);
   EXPECT_TRUE(LogSays("mode Active -> Standby"));  // so the level is what it was
 
   Reload("[log]\nlevel = \"info\"\n[engage]\nmin_speed = 12\n");
   EXPECT_TRUE(LogSays("configuration reloaded: engage.min_speed"));
   vehicle_.request.engage = true;
-  EXPECT_EQ(Period().steering.mode, Mode::kStandby);  // at 10 m/s
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);  // at 10 m/s
 
   Reload("[log]\nlevel = \"info\"\n[engage]\nmin_speed = 3\n[cycle]\nperiod = 0.04\n");
   EXPECT_TRUE(LogSays("configuration not reloaded: cycle.period needs a restart"));
@@ -92,13 +92,13 @@ TEST_F(DaemonService, ReloadTakesAllOrNothing) {
   vehicle_.request.engage = false;
   Period();
   vehicle_.request.engage = true;
-  EXPECT_EQ(Period().steering.mode, Mode::kStandby);  // neither was taken
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);  // neither was taken
 
   // The interface of the command line holds whatever the file says.
   Reload("[bus]\ninterface = \"can7\"\n[log]\nlevel = \"warning\"\n");
   EXPECT_TRUE(LogSays("configuration reloaded: engage.min_speed, log.level"));
   Engage();
-  EXPECT_EQ(Period().steering.mode, Mode::kActive);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);
   EXPECT_THAT(daemon_->Stderr(), Not(HasSubstr("can7")));
 }
 
@@ -112,7 +112,7 @@ TEST_F(DaemonService, ReaderOfTheLogThatStallsDoesNotStallTheDaemon) {
   // About a hundred characters each time; more than the pipe holds.
   for (int i = 0; i < 100; ++i) {
     daemon_->Signal(SIGUSR1);
-    ASSERT_EQ(Period().steering.mode, Mode::kActive) << i;
+    ASSERT_EQ(Period().steering.mode, bus::Mode::kActive) << i;
   }
   std::string text(1 << 20, '\0');
   EXPECT_GT(::read(reader, text.data(), text.size()), 2000);
@@ -187,7 +187,7 @@ TEST_F(DaemonWithJournal, JournalThatStallsDoesNotStallTheDaemon) {
   for (int i = 0; i < 700; ++i) {  // more than its queue holds, 512 where systemd has raised it
     daemon_->Signal(SIGUSR1);
     if (i % 10 == 0) {
-      ASSERT_TRUE(Drives(Period().steering.mode)) << i;
+      ASSERT_TRUE(bus::Drives(Period().steering.mode)) << i;
     }
   }
   EXPECT_NE(Entry("cycle latency"), "");  // there is room again

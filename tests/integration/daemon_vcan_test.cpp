@@ -6,7 +6,7 @@
 namespace lpvmpcd {
 namespace {
 
-using dbc::Mode;
+using bus::Mode;
 using test_support::Run;
 using testing::HasSubstr;
 
@@ -27,7 +27,7 @@ TEST_F(DaemonVcan, CommandsNothingUntilTheDriverAsksAndThenAnswersEveryState) {
   vehicle_.request.engage = true;
   for (int i = 0; i < 60; ++i) {
     const CommandPair pair = Period();
-    EXPECT_EQ(pair.steering.mode, Mode::kActive);
+    EXPECT_EQ(pair.steering.mode, bus::Mode::kActive);
     EXPECT_EQ(pair.steering.plan_age, 0);
     // The vehicle is where it shall be.
     EXPECT_NEAR(pair.steering.delta, 0.0, 0.01);
@@ -48,7 +48,7 @@ TEST_F(DaemonVcan, OverrideWinsAtOnceAndNeedsANewRequest) {
   for (const bool brake : {true, false}) {
     Engage();
     (brake ? vehicle_.request.brake : vehicle_.request.steering_override) = true;
-    EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+    EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);
     vehicle_.request = {.engage = true};
     for (int i = 0; i < 5; ++i) {
       EXPECT_FALSE(Period().steering.enable);
@@ -63,7 +63,7 @@ TEST_F(DaemonVcan, StaleStateIsBridgedByThePlanAndThenEndsInAControlledStop) {
   const auto pairs = UntilSafeStop([] { return std::vector<can::Frame>{}; });
   ASSERT_GE(pairs.size(), 2U);
   for (std::size_t i = 0; i + 1 < pairs.size(); ++i) {
-    EXPECT_EQ(pairs[i].steering.mode, Mode::kDegraded);
+    EXPECT_EQ(pairs[i].steering.mode, bus::Mode::kDegraded);
     EXPECT_EQ(pairs[i].steering.state_counter, 15);
     EXPECT_EQ(pairs[i].steering.plan_age, i + 1);
   }
@@ -77,14 +77,14 @@ TEST_F(DaemonVcan, StaleStateIsBridgedByThePlanAndThenEndsInAControlledStop) {
     last = pair;
   }
   ASSERT_TRUE(last);
-  EXPECT_EQ(last->steering.mode, Mode::kSafeStop);
+  EXPECT_EQ(last->steering.mode, bus::Mode::kSafeStop);
   EXPECT_NEAR(last->acceleration.acceleration, -3.0, 0.01);
-  EXPECT_EQ(Fault(), dbc::FaultCode::kStateStale);
+  EXPECT_EQ(Fault(), bus::FaultCode::kStateStale);
 
   // The vehicle comes back, standing.
   vehicle_.motion.upsilon = 0.0;
   const CommandPair pair = Period();
-  EXPECT_EQ(pair.steering.mode, Mode::kStandby);
+  EXPECT_EQ(pair.steering.mode, bus::Mode::kStandby);
 }
 
 TEST_F(DaemonVcan, CorruptedStatesChangeNothingAndManyOfThemStopTheVehicle) {
@@ -97,16 +97,16 @@ TEST_F(DaemonVcan, CorruptedStatesChangeNothingAndManyOfThemStopTheVehicle) {
   };
   PeriodWithoutState(corrupted());
   while (const auto pair = NextPair(1ms)) {
-    EXPECT_EQ(pair->steering.mode, Mode::kDegraded);
+    EXPECT_EQ(pair->steering.mode, bus::Mode::kDegraded);
     EXPECT_EQ(pair->steering.state_counter, 15);
   }
-  EXPECT_EQ(Period().steering.mode, Mode::kActive);  // a single one is bridged
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);  // a single one is bridged
 
   for (const CommandPair& pair : UntilSafeStop(corrupted)) {
     EXPECT_EQ(pair.steering.state_counter, 15);
     EXPECT_NEAR(pair.steering.delta, 0.0, 0.01);
   }
-  EXPECT_EQ(Fault(), dbc::FaultCode::kStateInvalid);
+  EXPECT_EQ(Fault(), bus::FaultCode::kStateInvalid);
   EXPECT_TRUE(LogSays("refused: wrong CRC"));
 }
 
@@ -118,7 +118,7 @@ TEST_F(DaemonVcan, RepeatedStateGetsNoAnswerAndMakesNothingFresh) {
   Put(vehicle_.Request());
   Put(vehicle_.Obstacles());
   Put(frozen);
-  EXPECT_EQ(Answer().steering.mode, Mode::kActive);
+  EXPECT_EQ(Answer().steering.mode, bus::Mode::kActive);
   for (const CommandPair& pair : UntilSafeStop([&] { return frozen; })) {
     EXPECT_EQ(pair.steering.state_counter, 15);
   }
@@ -133,12 +133,12 @@ TEST_F(DaemonVcan, KilledAndRestartedItCommandsNothingByItself) {
   Forget();
   StartDaemon();
   CommandPair pair = Period();
-  EXPECT_EQ(pair.steering.mode, Mode::kInit);
+  EXPECT_EQ(pair.steering.mode, bus::Mode::kInit);
   for (int i = 0; i < 20; ++i) {
     pair = Period();  // engage is held
     EXPECT_FALSE(pair.steering.enable);
   }
-  EXPECT_EQ(pair.steering.mode, Mode::kStandby);
+  EXPECT_EQ(pair.steering.mode, bus::Mode::kStandby);
   Engage();
 }
 
@@ -161,10 +161,10 @@ TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
 
   // It goes on braking until the vehicle stands, then it waits for a new request.
   for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(Period().steering.mode, Mode::kSafeStop);
+    EXPECT_EQ(Period().steering.mode, bus::Mode::kSafeStop);
   }
   vehicle_.motion.upsilon = 0.0;
-  EXPECT_EQ(Period().steering.mode, Mode::kStandby);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);
   vehicle_.motion.upsilon = 10.0;
   EXPECT_FALSE(Period().steering.enable);
   Engage();
@@ -188,7 +188,7 @@ TEST_F(DaemonVcan, AfterAPauseOnlyTheNewestStateIsAnswered) {
     ASSERT_TRUE(pair);
     if (pair->steering.state_counter != 15) {  // on a loaded machine even the newest may have waited too long
       EXPECT_EQ(pair->steering.state_counter, vehicle_.last_state_counter());
-      EXPECT_EQ(pair->steering.mode, Mode::kActive);
+      EXPECT_EQ(pair->steering.mode, bus::Mode::kActive);
     }
     while (const auto later = NextPair(100ms)) {
       EXPECT_EQ(later->steering.state_counter, 15) << "one answer is enough";
@@ -205,7 +205,7 @@ TEST_F(DaemonVcan, TellsItsLatenciesWhenAskedAndAtTheEnd) {
   daemon_->Signal(SIGUSR1);
   EXPECT_TRUE(LogSays("cycle latency median "));
   EXPECT_TRUE(LogSays("control step median "));
-  EXPECT_EQ(Period().steering.mode, Mode::kActive);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);
   daemon_->Signal(SIGTERM);
   EXPECT_EQ(daemon_->Wait(5s), 0);
   const std::string log = daemon_->Stderr();
@@ -292,9 +292,9 @@ TEST_F(DaemonOnPassingInterface, InterfaceDeletedAndMadeAgainIsTakenUp) {
   Forget();
   vehicle_.motion.upsilon = 0.0;
   CommandPair pair = Period();
-  EXPECT_NE(pair.steering.mode, Mode::kActive);
+  EXPECT_NE(pair.steering.mode, bus::Mode::kActive);
   pair = Period();
-  EXPECT_EQ(pair.steering.mode, Mode::kStandby);
+  EXPECT_EQ(pair.steering.mode, bus::Mode::kStandby);
 }
 
 }  // namespace

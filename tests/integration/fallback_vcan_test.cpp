@@ -11,9 +11,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/candump_log.hpp"
-#include "daemon/mode_machine.hpp"
-#include "dbc/vehicle_bus.hpp"
+#include "safety/mode_machine.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -36,10 +36,10 @@ constexpr int kFirst = 140;  // step of the controller that fails first
 
 // A cycle as the bus told it.
 struct Cycle {
-  dbc::SteeringCommand steering;
-  dbc::AccelerationCommand acceleration;
-  dbc::ControllerStatus status;
-  dbc::ControllerDiagnostics diagnostics;
+  bus::SteeringCommand steering;
+  bus::AccelerationCommand acceleration;
+  bus::ControllerStatus status;
+  bus::ControllerDiagnostics diagnostics;
   double speed = 0.0;  // told last before it
 };
 
@@ -81,15 +81,15 @@ class FallbackInACurve : public testing::Test {
       const can::Frame& frame = (*entry)->frame;
       const auto message = bus_.Decode(frame.id, frame.Payload());
       ASSERT_TRUE(message) << line;
-      if (const auto* motion = std::get_if<dbc::VehicleMotion>(&*message)) {
+      if (const auto* motion = std::get_if<bus::VehicleMotion>(&*message)) {
         cycle.speed = motion->upsilon;
-      } else if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+      } else if (const auto* steering = std::get_if<bus::SteeringCommand>(&*message)) {
         cycle.steering = *steering;
-      } else if (const auto* acceleration = std::get_if<dbc::AccelerationCommand>(&*message)) {
+      } else if (const auto* acceleration = std::get_if<bus::AccelerationCommand>(&*message)) {
         cycle.acceleration = *acceleration;
-      } else if (const auto* status = std::get_if<dbc::ControllerStatus>(&*message)) {
+      } else if (const auto* status = std::get_if<bus::ControllerStatus>(&*message)) {
         cycle.status = *status;
-      } else if (const auto* diagnostics = std::get_if<dbc::ControllerDiagnostics>(&*message)) {
+      } else if (const auto* diagnostics = std::get_if<bus::ControllerDiagnostics>(&*message)) {
         cycle.diagnostics = *diagnostics;
         cycles_.push_back(cycle);
       }
@@ -97,10 +97,10 @@ class FallbackInACurve : public testing::Test {
   }
 
   // The first cycle in `mode`, from `begin` on.
-  std::size_t First(Mode mode, std::size_t begin = 0) const {
+  std::size_t First(bus::Mode mode, std::size_t begin = 0) const {
     const auto found = std::find_if(cycles_.begin() + static_cast<std::ptrdiff_t>(begin), cycles_.end(),
                                     [mode](const Cycle& c) { return c.steering.mode == mode; });
-    EXPECT_NE(found, cycles_.end()) << Name(mode);
+    EXPECT_NE(found, cycles_.end()) << safety::Name(mode);
     return static_cast<std::size_t>(found - cycles_.begin());
   }
 
@@ -118,14 +118,14 @@ class FallbackInACurve : public testing::Test {
   }
 
   // The drive that failed for good: Degraded along the rest of the last plan, then a stop along the path.
-  void ExpectBridgedAndStopped(dbc::ModeCause cause, dbc::FaultCode fault) {
-    const std::size_t degraded = First(Mode::kDegraded);
-    const std::size_t stop = First(Mode::kSafeStop);
+  void ExpectBridgedAndStopped(bus::ModeCause cause, bus::FaultCode fault) {
+    const std::size_t degraded = First(bus::Mode::kDegraded);
+    const std::size_t stop = First(bus::Mode::kSafeStop);
     ASSERT_LT(degraded, stop);
-    EXPECT_EQ(cycles_[degraded - 1].steering.mode, Mode::kActive);
+    EXPECT_EQ(cycles_[degraded - 1].steering.mode, bus::Mode::kActive);
     EXPECT_EQ(cycles_[degraded - 1].steering.plan_age, 0);
     EXPECT_EQ(cycles_[degraded].diagnostics.cause, cause);
-    EXPECT_EQ(cycles_[degraded].diagnostics.previous_mode, Mode::kActive);
+    EXPECT_EQ(cycles_[degraded].diagnostics.previous_mode, bus::Mode::kActive);
     for (std::size_t i = degraded; i < stop; ++i) {
       EXPECT_EQ(cycles_[i].status.fault_code, fault);
       EXPECT_GT(cycles_[i].steering.plan_age, cycles_[i - 1].steering.plan_age);
@@ -134,11 +134,11 @@ class FallbackInACurve : public testing::Test {
         EXPECT_LT(cycles_[i].diagnostics.countdown, cycles_[i - 1].diagnostics.countdown);
       }
     }
-    EXPECT_EQ(cycles_[stop].diagnostics.cause, dbc::ModeCause::kPlanExhausted);
+    EXPECT_EQ(cycles_[stop].diagnostics.cause, bus::ModeCause::kPlanExhausted);
     EXPECT_EQ(cycles_[stop].diagnostics.countdown, 0.0);
     ExpectSteeringHeldToTheCurve(degraded);
 
-    const std::size_t standby = First(Mode::kStandby, stop);
+    const std::size_t standby = First(bus::Mode::kStandby, stop);
     EXPECT_LT(cycles_[standby].speed, 0.3);
     EXPECT_TRUE(std::all_of(cycles_.begin() + static_cast<std::ptrdiff_t>(standby), cycles_.end(),
                             [](const Cycle& c) { return !c.steering.enable && !c.acceleration.enable; }));
@@ -146,49 +146,49 @@ class FallbackInACurve : public testing::Test {
   }
 
   test_support::TempDir folder_;
-  dbc::VehicleBus bus_;
+  bus::VehicleBus bus_;
   nlohmann::json summary_;
   std::vector<Cycle> cycles_;
 };
 
 TEST_F(FallbackInACurve, SolverThatFailsIsBridgedByThePlanAndThenTheVehicleIsStoppedOnItsPath) {
   Drive("unsolved", 100000, false);
-  ExpectBridgedAndStopped(dbc::ModeCause::kSolverFailed, dbc::FaultCode::kSolverInfeasible);
+  ExpectBridgedAndStopped(bus::ModeCause::kSolverFailed, bus::FaultCode::kSolverInfeasible);
 }
 
 TEST_F(FallbackInACurve, RejectedPlansAreBridgedByTheLastGoodOneAndThenTheVehicleIsStoppedOnItsPath) {
   Drive("rejected", 100000, false);
-  ExpectBridgedAndStopped(dbc::ModeCause::kPlanRejected, dbc::FaultCode::kPlanRejected);
+  ExpectBridgedAndStopped(bus::ModeCause::kPlanRejected, bus::FaultCode::kPlanRejected);
 }
 
 TEST_F(FallbackInACurve, MissedDeadlinesAreBridgedByThePlanAndThenTheVehicleIsStoppedOnItsPath) {
   Drive("late", 100000, true);
-  const std::size_t stop = First(Mode::kSafeStop);
+  const std::size_t stop = First(bus::Mode::kSafeStop);
   const std::size_t late = static_cast<std::size_t>(
       std::find_if(cycles_.begin(), cycles_.end(),
-                   [](const Cycle& c) { return c.status.fault_code == dbc::FaultCode::kDeadlineMissed; }) -
+                   [](const Cycle& c) { return c.status.fault_code == bus::FaultCode::kDeadlineMissed; }) -
       cycles_.begin());
   ASSERT_LT(late, stop);
   EXPECT_GT(cycles_[stop].status.deadline_misses, 0);
   for (std::size_t i = late; i < stop; ++i) {
     // A command from an older plan, and no answer to the state that came too late.
-    EXPECT_EQ(cycles_[i].steering.mode, Mode::kDegraded);
+    EXPECT_EQ(cycles_[i].steering.mode, bus::Mode::kDegraded);
     EXPECT_EQ(cycles_[i].steering.state_counter, 15);
     EXPECT_GT(cycles_[i].steering.plan_age, 0);
   }
   ExpectSteeringHeldToTheCurve(late);
-  EXPECT_LT(cycles_[First(Mode::kStandby, stop)].speed, 0.3);
+  EXPECT_LT(cycles_[First(bus::Mode::kStandby, stop)].speed, 0.3);
   EXPECT_GT(summary_["min_road_margin_m"].get<double>(), 3.0);
 }
 
 TEST_F(FallbackInACurve, ThreeFailuresInARowAreBridgedAndTheDriveGoesOnToItsEnd) {
   Drive("unsolved", 3, false);
-  const std::size_t degraded = First(Mode::kDegraded);
+  const std::size_t degraded = First(bus::Mode::kDegraded);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(cycles_[degraded + i].steering.plan_age, i + 1);
   }
-  EXPECT_EQ(cycles_[degraded + 3].steering.mode, Mode::kActive);
-  EXPECT_EQ(cycles_[degraded + 3].diagnostics.cause, dbc::ModeCause::kRecovered);
+  EXPECT_EQ(cycles_[degraded + 3].steering.mode, bus::Mode::kActive);
+  EXPECT_EQ(cycles_[degraded + 3].diagnostics.cause, bus::ModeCause::kRecovered);
   EXPECT_TRUE(summary_["completed"].get<bool>());
   EXPECT_GT(summary_["min_road_margin_m"].get<double>(), 3.0);
 }

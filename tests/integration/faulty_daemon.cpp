@@ -15,10 +15,10 @@
 #include <thread>
 
 #include "config/route_file.hpp"
-#include "control/lpv_mpc.hpp"
-#include "daemon/assembly.hpp"
+#include "control/mpc/lpv_mpc.hpp"
 #include "daemon/log.hpp"
 #include "daemon/service.hpp"
+#include "loop/assembly.hpp"
 
 namespace {
 
@@ -30,7 +30,7 @@ struct Fault {
 
 class FaultyController : public control::Controller {
  public:
-  FaultyController(const lpvmpcd::Config& config, Fault fault)
+  FaultyController(const loop::Config& config, Fault fault)
       : sound_(config.vehicle, config.mpc), fault_(std::move(fault)) {}
 
   int horizon() const override { return sound_.horizon(); }
@@ -66,14 +66,14 @@ Fault FaultFromEnvironment() {
 int main(int argc, char** argv) {
   try {
     if (argc < 5) throw std::runtime_error("too few arguments");
-    lpvmpcd::Config config = lpvmpcd::LoadConfig(argv[2]);
+    loop::Config config = loop::LoadConfig(argv[2]);
     config.service.interface = argv[4];
-    lpvmpcd::SelectController(config, "lpv");
-    if (argc > 5) lpvmpcd::SelectLockstep(config);
-    lpvmpcd::Assembly assembly(config, config::LoadRoute(config.route), lpvmpcd::MonotonicNow,
-                               [](const lpvmpcd::Config& of, const control::Course&) {
-                                 return std::make_unique<FaultyController>(of, FaultFromEnvironment());
-                               });
+    loop::SelectController(config, "lpv");
+    if (argc > 5) loop::SelectLockstep(config);
+    loop::Assembly assembly(config, config::LoadRoute(config.route), base::MonotonicNow,
+                            [](const loop::Config& of, const control::RoadProfile&) {
+                              return std::make_unique<FaultyController>(of, FaultFromEnvironment());
+                            });
     lpvmpcd::OpenLog(config.log_level);
     lpvmpcd::Service service(config.service, assembly.loop(), [] {});
     service.Run();

@@ -1,4 +1,4 @@
-"""The manual pages say what the programs and daemon/config.hpp say.
+"""The manual pages say what the programs and loop/config.hpp say.
 
 usage: man_pages_test.py SOURCE_FOLDER FOLDER_OF_PROGRAMS
 """
@@ -39,16 +39,16 @@ def help_of(program, command):
 
 
 def listing():
-    """Keys of daemon/config.hpp by section: default and range, each None where the line has none."""
+    """Keys of loop/config.hpp by section: default and range, each None where the line has none."""
     keys, section = {}, None
-    for line in (SOURCE / "daemon/config.hpp").read_text().split("#pragma once")[0].splitlines():
+    for line in (SOURCE / "loop/config.hpp").read_text().split("#pragma once")[0].splitlines():
         match = re.match(r"//   (?:\[(\w+)\] *| {14})([A-Za-z_].*)$", line)
         if not match:
             continue
         section = match[1] or section
         head = re.split(r" = |  +", match[2])[0]
         if not re.fullmatch(r"\w+(, \w+)*", head):
-            raise ValueError(f"daemon/config.hpp: no key of the listing: {line}")
+            raise ValueError(f"loop/config.hpp: no key of the listing: {line}")
         default = re.search(r" = (\[.*?\]|\S+( \w+)?)", match[2])
         limits = re.search(r"\S+\.\.[\w.-]*\w", match[2])
         for key in head.split(", "):

@@ -49,7 +49,7 @@ class Mutants(unittest.TestCase):
 
 class Survivors(unittest.TestCase):
     def test_weak_tests_leave_survivors_and_fail(self):
-        source = "control/command_limiter.cpp"
+        source = "safety/command_limiter.cpp"
         run = subprocess.run([MUTATE, "--build", BUILD, "--tests", "CommandLimiter.CommandWithinAllLimits*", source],
                              capture_output=True, text=True)
         self.assertEqual(run.returncode, 1, run.stderr)

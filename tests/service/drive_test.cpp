@@ -12,7 +12,7 @@ namespace service_test {
 namespace {
 
 using namespace std::chrono_literals;
-using dbc::Mode;
+using bus::Mode;
 using std::chrono::steady_clock;
 using testing::HasSubstr;
 using testing::StartsWith;

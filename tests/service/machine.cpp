@@ -83,16 +83,16 @@ const std::vector<BusWatch::Command>& BusWatch::Commands() {
     const can::Frame& frame = received.frame;
     const auto message = bus_.Decode(frame.id, frame.Payload());
     if (!message) continue;
-    if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+    if (const auto* steering = std::get_if<bus::SteeringCommand>(&*message)) {
       commands_.push_back({frame.timestamp, steering->mode, steering->enable});
-    } else if (const auto* acceleration = std::get_if<dbc::AccelerationCommand>(&*message)) {
+    } else if (const auto* acceleration = std::get_if<bus::AccelerationCommand>(&*message)) {
       commands_.push_back({frame.timestamp, acceleration->mode, acceleration->enable});
     }
   }
   return commands_;
 }
 
-testing::AssertionResult BusWatch::Reaches(dbc::Mode mode) {
+testing::AssertionResult BusWatch::Reaches(bus::Mode mode) {
   const auto there = [&] { return !Commands().empty() && commands_.back().mode == mode; };
   if (test_support::WaitUntil(there, kPatience)) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "no command of mode " << static_cast<int>(mode) << " among "
@@ -149,7 +149,7 @@ void Service::StartDaemon() {
 
 void Service::Engage(BusWatch& bus) {
   Do({"systemctl", "restart", kVehicle});
-  ASSERT_TRUE(bus.Reaches(dbc::Mode::kActive));
+  ASSERT_TRUE(bus.Reaches(bus::Mode::kActive));
 }
 
 }  // namespace service_test

@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/socket.hpp"
-#include "dbc/vehicle_bus.hpp"
 
 namespace service_test {
 
@@ -54,17 +54,17 @@ class BusWatch {
  public:
   struct Command {
     can::Time time{};
-    dbc::Mode mode = dbc::Mode::kInit;
+    bus::Mode mode = bus::Mode::kInit;
     bool enable = false;
   };
 
   // All commands so far, steering and acceleration.
   const std::vector<Command>& Commands();
   // True as soon as the newest command is of this mode.
-  [[nodiscard]] testing::AssertionResult Reaches(dbc::Mode mode);
+  [[nodiscard]] testing::AssertionResult Reaches(bus::Mode mode);
 
  private:
-  dbc::VehicleBus bus_;
+  bus::VehicleBus bus_;
   can::Socket socket_{kInterface, {.filters = {Filter("SteeringCommand"), Filter("AccelerationCommand")}}};
   std::vector<Command> commands_;
 

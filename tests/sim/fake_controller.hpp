@@ -6,34 +6,34 @@
 #include <cmath>
 #include <vector>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/frame.hpp"
-#include "control/route.hpp"
+#include "control/road/route.hpp"
 #include "dbc/e2e.hpp"
-#include "dbc/vehicle_bus.hpp"
 
 namespace sim {
 
 class FakeController {
  public:
-  FakeController(const dbc::VehicleBus& bus, const control::Route& route) : bus_(&bus), route_(route) {}
+  FakeController(const bus::VehicleBus& bus, const control::Route& route) : bus_(&bus), route_(route) {}
 
   // The answer, if `frame` completes a state set.
   std::vector<can::Frame> Receive(const can::Frame& frame) {
     const auto message = bus_->Decode(frame.id, frame.Payload());
     if (!message) return {};
-    if (const auto* request = std::get_if<dbc::DriverRequest>(&*message)) {
-      if (request->engage && !engage_ && mode == dbc::Mode::kStandby) mode = dbc::Mode::kActive;
-      if (!request->engage || request->brake || request->steering_override) mode = dbc::Mode::kStandby;
+    if (const auto* request = std::get_if<bus::DriverRequest>(&*message)) {
+      if (request->engage && !engage_ && mode == bus::Mode::kStandby) mode = bus::Mode::kActive;
+      if (!request->engage || request->brake || request->steering_override) mode = bus::Mode::kStandby;
       engage_ = request->engage;
-    } else if (const auto* pose = std::get_if<dbc::VehiclePose>(&*message)) {
+    } else if (const auto* pose = std::get_if<bus::VehiclePose>(&*message)) {
       pose_ = *pose;
-    } else if (const auto* feedback = std::get_if<dbc::VehicleFeedback>(&*message)) {
+    } else if (const auto* feedback = std::get_if<bus::VehicleFeedback>(&*message)) {
       return Answer(*feedback, bus_->Check(frame.id, frame.Payload()).counter);
     }
     return {};
   }
 
-  [[nodiscard]] std::vector<can::Frame> Answer(const dbc::VehicleFeedback& feedback,
+  [[nodiscard]] std::vector<can::Frame> Answer(const bus::VehicleFeedback& feedback,
                                                std::uint8_t state_counter) {
     const control::RouteProjection place = route_.Project({pose_.X, pose_.Y}, hint_);
     hint_ = place.s;
@@ -41,11 +41,11 @@ class FakeController {
     const double heading_error = std::remainder(feedback.psi - route_.At(place.s).psi, 2.0 * M_PI);
     const double delta =
         std::clamp(2.6 * ahead.curvature - 0.1 * place.lateral - 0.8 * heading_error, -0.5, 0.5);
-    const bool enable = mode == dbc::Mode::kActive;
+    const bool enable = mode == bus::Mode::kActive;
     std::vector<can::Frame> frames{
-        Encode(dbc::SteeringCommand{
+        Encode(bus::SteeringCommand{
             .enable = enable, .mode = mode, .state_counter = state_counter, .plan_age = 0, .delta = delta}),
-        Encode(dbc::AccelerationCommand{.enable = enable,
+        Encode(bus::AccelerationCommand{.enable = enable,
                                         .mode = mode,
                                         .state_counter = state_counter,
                                         .plan_age = 0,
@@ -57,16 +57,16 @@ class FakeController {
 
   [[nodiscard]] can::Frame Status() {
     ++counter_;
-    return Encode(dbc::ControllerStatus{.mode = mode,
-                                        .fault_code = dbc::FaultCode::kNone,
+    return Encode(bus::ControllerStatus{.mode = mode,
+                                        .fault_code = bus::FaultCode::kNone,
                                         .solver_status = solver_status,
                                         .iterations = 5,
                                         .solve_time = 1e-6 * static_cast<double>(counter_ % 100 + 1),
                                         .deadline_misses = deadline_misses});
   }
 
-  [[nodiscard]] can::Frame Encode(const dbc::Message& message) const {
-    dbc::RawMessage raw;
+  [[nodiscard]] can::Frame Encode(const bus::Message& message) const {
+    bus::RawMessage raw;
     (void)bus_->Encode(message, static_cast<std::uint8_t>(counter_ % dbc::kCounterModulus), raw);
     can::Frame frame;
     frame.id = raw.id;
@@ -75,17 +75,17 @@ class FakeController {
     return frame;
   }
 
-  dbc::Mode mode = dbc::Mode::kStandby;
-  dbc::SolverStatus solver_status = dbc::SolverStatus::kSolved;
+  bus::Mode mode = bus::Mode::kStandby;
+  bus::SolverStatus solver_status = bus::SolverStatus::kSolved;
   std::uint16_t deadline_misses = 0;
-  std::optional<dbc::ConstraintReport> constraint;  // none: not told
+  std::optional<bus::ConstraintReport> constraint;  // none: not told
 
  private:
-  const dbc::VehicleBus* bus_;
+  const bus::VehicleBus* bus_;
   control::Route route_;
   std::optional<double> hint_;
   bool engage_ = false;
-  dbc::VehiclePose pose_;
+  bus::VehiclePose pose_;
   unsigned counter_ = 0;
 };
 

@@ -53,7 +53,7 @@ class ControllerOnBus {
     frames_sent += static_cast<int>(frames.size());
   }
 
-  dbc::VehicleBus bus_;
+  bus::VehicleBus bus_;
   FakeController controller_;
   can::Socket socket_;
   std::atomic<bool> stop_ = false;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/vehicle_model.hpp"
+#include "control/vehicle/single_track.hpp"
 #include "gtest/gtest.h"
 
 namespace sim {
@@ -61,7 +61,7 @@ TEST(Plant, StraightLineStaysStraight) {
 TEST(Plant, FlatWithLinearTyresIsTheBicycleForSmallAngles) {
   const PlantParameters parameters = Flat();
   const Plant plant(parameters, State::Zero());
-  const control::VehicleModel bicycle(parameters.vehicle);
+  const control::SingleTrackModel bicycle(parameters.vehicle);
   const auto difference = [&](double scale) {
     State z = Rolling(12.0, 0.4 * scale, 0.3 * scale);
     z[control::kPsi] = 0.7;

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/percentile.hpp"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "sim/percentile.hpp"
 #include "tests/sim/fake_controller.hpp"
 #include "tests/sim/scenario_files.hpp"
 
@@ -37,7 +37,7 @@ class SummaryTest : public testing::Test {
   }
 
   ScenarioFiles files_;
-  dbc::VehicleBus bus_;
+  bus::VehicleBus bus_;
 };
 
 TEST_F(SummaryTest, DriveToTheEndOfTheRouteIsCompleted) {
@@ -128,7 +128,7 @@ TEST_F(SummaryTest, DriveThatComesToRestEnds) {
 TEST_F(SummaryTest, ControllerThatNeverEngagesGivesNoSteps) {
   const Summary summary =
       Drive(files_.Load("duration = 2.0\n"),
-            [](FakeController& controller, VirtualVehicle&) { controller.mode = dbc::Mode::kInit; });
+            [](FakeController& controller, VirtualVehicle&) { controller.mode = bus::Mode::kInit; });
   EXPECT_FALSE(summary.completed);
   EXPECT_EQ(summary.steps, 0);
   EXPECT_FALSE(summary.rms_lateral_error_m);
@@ -141,7 +141,7 @@ TEST_F(SummaryTest, CountsStepsThatWereNotSolvedAndDeadlineMissesAcrossTheWrap) 
   const Summary summary = Drive(scenario, [&cycle](FakeController& controller, VirtualVehicle&) {
     ++cycle;
     controller.solver_status =
-        cycle >= 40 && cycle < 43 ? dbc::SolverStatus::kInfeasible : dbc::SolverStatus::kSolved;
+        cycle >= 40 && cycle < 43 ? bus::SolverStatus::kInfeasible : bus::SolverStatus::kSolved;
     controller.deadline_misses = cycle < 50 ? 1022 : 3;
   });
   EXPECT_EQ(summary.infeasible_steps, 3);
@@ -151,25 +151,25 @@ TEST_F(SummaryTest, CountsStepsThatWereNotSolvedAndDeadlineMissesAcrossTheWrap) 
 }
 
 TEST_F(SummaryTest, TellsTheFirstAndTheWorstOfWhatWasNotMet) {
-  using enum dbc::ConstraintVerdict;
+  using enum bus::ConstraintVerdict;
   const Scenario scenario = files_.Load("duration = 4.0\n");
   int cycle = 0;
   std::int64_t first = 0;
   const Summary summary = Drive(scenario, [&](FakeController& controller, VirtualVehicle&) {
     ++cycle;
-    controller.constraint = dbc::ConstraintReport{};
-    if (controller.mode != dbc::Mode::kActive) return;
+    controller.constraint = bus::ConstraintReport{};
+    if (controller.mode != bus::Mode::kActive) return;
     if (first == 0) first = cycle;
     const std::int64_t step = cycle - first;  // of the drive, but for the cycle that engages
     if (step >= 9 && step < 12)
       controller.constraint = {.verdict = kRelaxed,
-                               .constraint = dbc::ConstraintName::kObstacle,
+                               .constraint = bus::ConstraintName::kObstacle,
                                .index = 3,
                                .step = 20,
                                .amount = 0.01 * static_cast<double>(step)};
     if (step == 20)
       controller.constraint = {.verdict = kRejected,
-                               .constraint = dbc::ConstraintName::kRoad,
+                               .constraint = bus::ConstraintName::kRoad,
                                .index = 1,
                                .step = 5,
                                .amount = 0.05};
@@ -190,15 +190,15 @@ TEST_F(SummaryTest, TellsTheFirstAndTheWorstOfWhatWasNotMet) {
 TEST(Percentile, IsTheValueOfTheNearestRank) {
   std::vector<int> values;
   for (int i = 1; i <= 100; ++i) values.push_back(i);
-  EXPECT_EQ(Percentile(values, 0.5), 50);
-  EXPECT_EQ(Percentile(values, 0.07), 7);
-  EXPECT_EQ(Percentile(values, 0.99), 99);
-  EXPECT_EQ(Percentile(values, 1.0), 100);
+  EXPECT_EQ(base::Percentile(values, 0.5), 50);
+  EXPECT_EQ(base::Percentile(values, 0.07), 7);
+  EXPECT_EQ(base::Percentile(values, 0.99), 99);
+  EXPECT_EQ(base::Percentile(values, 1.0), 100);
   values.push_back(101);
-  EXPECT_EQ(Percentile(values, 0.5), 51);
-  EXPECT_EQ(Percentile(values, 0.99), 100);
-  EXPECT_EQ(Percentile(std::vector<double>{3.5}, 0.0), 3.5);
-  EXPECT_EQ(Percentile(std::vector<double>{}, 0.5), 0.0);
+  EXPECT_EQ(base::Percentile(values, 0.5), 51);
+  EXPECT_EQ(base::Percentile(values, 0.99), 100);
+  EXPECT_EQ(base::Percentile(std::vector<double>{3.5}, 0.0), 3.5);
+  EXPECT_EQ(base::Percentile(std::vector<double>{}, 0.5), 0.0);
 }
 
 TEST(SummaryJson, HasTheAgreedKeys) {

@@ -33,7 +33,7 @@ class VirtualVehicleTest : public testing::Test {
   }
 
   ScenarioFiles files_;
-  dbc::VehicleBus bus_;
+  bus::VehicleBus bus_;
 };
 
 TEST_F(VirtualVehicleTest, SendsItsFramesInTheOrderOfTheBusContract) {
@@ -56,8 +56,8 @@ TEST_F(VirtualVehicleTest, EveryMessageHasItsOwnCounterThatGoesUpWithEachFrame) 
   std::map<std::uint32_t, std::uint8_t> expected;
   for (int cycle = 0; cycle < 40; ++cycle) {
     for (const can::Frame& frame : vehicle.Sense({})) {
-      const dbc::E2eCheck check = bus_.Check(frame.id, frame.Payload());
-      EXPECT_EQ(check.verdict, dbc::E2eVerdict::kOk);
+      const bus::E2eCheck check = bus_.Check(frame.id, frame.Payload());
+      EXPECT_EQ(check.verdict, bus::E2eVerdict::kOk);
       EXPECT_EQ(check.counter, expected[frame.id]);
       expected[frame.id] = dbc::NextCounter(check.counter);
     }
@@ -71,17 +71,17 @@ TEST_F(VirtualVehicleTest, TellsStateAndObstaclesAsTheyAre) {
   for (int i = 0; i < 20; ++i) vehicle.Advance();
   int positions = 0;
   for (const can::Frame& frame : vehicle.Sense({})) {
-    const dbc::Message message = bus_.Decode(frame.id, frame.Payload()).value();
-    if (const auto* pose = std::get_if<dbc::VehiclePose>(&message)) {
+    const bus::Message message = bus_.Decode(frame.id, frame.Payload()).value();
+    if (const auto* pose = std::get_if<bus::VehiclePose>(&message)) {
       EXPECT_NEAR(pose->X, 10.0 + 12.0, 1e-4);
       EXPECT_NEAR(pose->Y, 0.5, 1e-4);
-    } else if (const auto* position = std::get_if<dbc::ObstaclePosition>(&message)) {
+    } else if (const auto* position = std::get_if<bus::ObstaclePosition>(&message)) {
       EXPECT_EQ(position->object_id, positions == 0 ? 1 : 7);
       if (positions == 0) {
         EXPECT_NEAR(position->X, 60.0 + 2.0, 1e-3);
       }
       ++positions;
-    } else if (const auto* list = std::get_if<dbc::ObstacleList>(&message)) {
+    } else if (const auto* list = std::get_if<bus::ObstacleList>(&message)) {
       EXPECT_EQ(list->count, 2);
     }
   }
@@ -98,13 +98,13 @@ TEST_F(VirtualVehicleTest, ObstacleThatAppearsLaterIsThereButNotPerceivedBefore)
     std::vector<int> ids;
     int count = -1;
     for (const can::Frame& frame : vehicle.Sense({})) {
-      const dbc::Message message = bus_.Decode(frame.id, frame.Payload()).value();
-      if (const auto* position = std::get_if<dbc::ObstaclePosition>(&message)) {
+      const bus::Message message = bus_.Decode(frame.id, frame.Payload()).value();
+      if (const auto* position = std::get_if<bus::ObstaclePosition>(&message)) {
         ids.push_back(position->object_id);
         if (position->object_id == 1) {
           EXPECT_NEAR(position->X, 60.0 + 0.1 * cycle, 1e-3);
         }
-      } else if (const auto* list = std::get_if<dbc::ObstacleList>(&message)) {
+      } else if (const auto* list = std::get_if<bus::ObstacleList>(&message)) {
         count = list->count;
       }
     }
@@ -126,12 +126,12 @@ TEST_F(VirtualVehicleTest, BeforeEngagementRollsOnAsItStarted) {
 TEST_F(VirtualVehicleTest, CommandIsObeyedOnlyWhileEnabled) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
   const FakeController controller(bus_, files_.Load("").route);
-  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = false, .delta = 0.1}));
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = false, .acceleration = 1.0}));
+  vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = false, .delta = 0.1}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = false, .acceleration = 1.0}));
   vehicle.Advance();
   EXPECT_EQ(vehicle.actuators(), control::Input(0.0, 0.0));
-  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.1}));
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 1.0}));
+  vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.1}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = true, .acceleration = 1.0}));
   vehicle.Advance();
   EXPECT_NEAR(vehicle.actuators()[control::kDelta], 0.1, 1e-6);
   EXPECT_NEAR(vehicle.actuators()[control::kAcceleration], 1.0, 1e-4);
@@ -140,11 +140,11 @@ TEST_F(VirtualVehicleTest, CommandIsObeyedOnlyWhileEnabled) {
 TEST_F(VirtualVehicleTest, DriverTakesOverAfterDisablingAndBrakesToAStop) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
   const FakeController controller(bus_, files_.Load("").route);
-  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.02}));
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 0.0}));
+  vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.02}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = true, .acceleration = 0.0}));
   vehicle.Advance();
-  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = false, .delta = 0.3}));
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = false, .acceleration = 2.0}));
+  vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = false, .delta = 0.3}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = false, .acceleration = 2.0}));
   vehicle.Advance();
   EXPECT_NEAR(vehicle.actuators()[control::kDelta], 0.02, 1e-6);
   EXPECT_EQ(vehicle.actuators()[control::kAcceleration], kDriverDeceleration);
@@ -158,7 +158,7 @@ TEST_F(VirtualVehicleTest, DriverTakesOverAtOnceThoughCommandsTakeTheirTime) {
   VirtualVehicle vehicle(scenario, bus_);
   FakeController controller(bus_, scenario.route);
   while (vehicle.time() < 2.0) Cycle(vehicle, controller);
-  ASSERT_EQ(vehicle.mode(), dbc::Mode::kActive);
+  ASSERT_EQ(vehicle.mode(), bus::Mode::kActive);
   const double held = vehicle.actuators()[control::kDelta];
   ASSERT_NE(held, 0.0);
   for (int i = 0; i < 30; ++i) {
@@ -171,8 +171,8 @@ TEST_F(VirtualVehicleTest, DriverTakesOverAtOnceThoughCommandsTakeTheirTime) {
 TEST_F(VirtualVehicleTest, CommandThatIsNotRenewedIsObeyedForItsLifetimeOnly) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
   const FakeController controller(bus_, files_.Load("").route);
-  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.0}));
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 1.0}));
+  vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.0}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = true, .acceleration = 1.0}));
   for (int i = 0; i < kCommandLifetime; ++i) {
     vehicle.Advance();
     EXPECT_NEAR(vehicle.actuators()[control::kAcceleration], 1.0, 1e-4);
@@ -186,12 +186,12 @@ TEST_F(VirtualVehicleTest, IsAnsweredByBothCommandsToItsCounterAndAStatusAfterTh
   VirtualVehicle vehicle(files_.Load(""), bus_);
   FakeController controller(bus_, files_.Load("").route);
   vehicle.Advance();  // the counter is 1 now
-  vehicle.Receive(controller.Encode(dbc::SteeringCommand{.state_counter = 1}));
+  vehicle.Receive(controller.Encode(bus::SteeringCommand{.state_counter = 1}));
   vehicle.Receive(controller.Status());
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.state_counter = 0}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.state_counter = 0}));
   vehicle.Receive(controller.Status());
   EXPECT_FALSE(vehicle.Answered());
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.state_counter = 1}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.state_counter = 1}));
   EXPECT_FALSE(vehicle.Answered());
   vehicle.Receive(controller.Status());
   EXPECT_TRUE(vehicle.Answered());
@@ -202,10 +202,10 @@ TEST_F(VirtualVehicleTest, IsAnsweredByBothCommandsToItsCounterAndAStatusAfterTh
 TEST_F(VirtualVehicleTest, FrameWithWrongCrcChangesNothing) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
   const FakeController controller(bus_, files_.Load("").route);
-  can::Frame bad = controller.Encode(dbc::SteeringCommand{.enable = true, .delta = 0.1});
+  can::Frame bad = controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.1});
   bad.data[5] ^= std::byte{0x10};
   vehicle.Receive(bad);
-  vehicle.Receive(controller.Encode(dbc::AccelerationCommand{.enable = true, .acceleration = 0.0}));
+  vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = true, .acceleration = 0.0}));
   vehicle.Advance();
   EXPECT_EQ(vehicle.actuators()[control::kDelta], 0.0);
   EXPECT_EQ(vehicle.rejected_frames(), 1u);
@@ -217,10 +217,10 @@ TEST_F(VirtualVehicleTest, DriverEngagesOnceTheControllerStandsBy) {
   FakeController controller(bus_, scenario.route);
   while (vehicle.time() < 0.99) {
     Cycle(vehicle, controller);
-    EXPECT_EQ(controller.mode, dbc::Mode::kStandby);
+    EXPECT_EQ(controller.mode, bus::Mode::kStandby);
   }
   while (vehicle.time() < 1.5) Cycle(vehicle, controller);
-  EXPECT_EQ(controller.mode, dbc::Mode::kActive);
+  EXPECT_EQ(controller.mode, bus::Mode::kActive);
 }
 
 TEST_F(VirtualVehicleTest, DriverOverridesAndKeepsTheWheel) {
@@ -228,9 +228,9 @@ TEST_F(VirtualVehicleTest, DriverOverridesAndKeepsTheWheel) {
   VirtualVehicle vehicle(scenario, bus_);
   FakeController controller(bus_, scenario.route);
   while (vehicle.time() < 1.9) Cycle(vehicle, controller);
-  EXPECT_EQ(controller.mode, dbc::Mode::kActive);
+  EXPECT_EQ(controller.mode, bus::Mode::kActive);
   while (vehicle.time() < 5.0) Cycle(vehicle, controller);
-  EXPECT_EQ(controller.mode, dbc::Mode::kStandby);
+  EXPECT_EQ(controller.mode, bus::Mode::kStandby);
   EXPECT_LT(vehicle.state()[control::kUpsilon], 7.0);
 }
 
@@ -239,7 +239,7 @@ TEST(Driver, AsksAgainWhenTheControllerDidNotEngage) {
   int edges = 0;
   bool before = false;
   for (int i = 0; i < 100; ++i) {
-    const bool engage = driver.Request(0.05 * i, dbc::Mode::kStandby).engage;
+    const bool engage = driver.Request(0.05 * i, bus::Mode::kStandby).engage;
     edges += engage && !before;
     before = engage;
   }
@@ -248,13 +248,13 @@ TEST(Driver, AsksAgainWhenTheControllerDidNotEngage) {
 
 TEST(Driver, DoesNotAskAControllerThatIsNotReady) {
   Driver driver({});
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(driver.Request(0.05 * i, dbc::Mode::kInit).engage);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(driver.Request(0.05 * i, bus::Mode::kInit).engage);
 }
 
 TEST(Driver, HoldsTheRequestWhileDriven) {
   Driver driver({});
-  for (int i = 0; i < 10; ++i) (void)driver.Request(0.05 * i, dbc::Mode::kStandby);
-  for (int i = 10; i < 200; ++i) EXPECT_TRUE(driver.Request(0.05 * i, dbc::Mode::kActive).engage);
+  for (int i = 0; i < 10; ++i) (void)driver.Request(0.05 * i, bus::Mode::kStandby);
+  for (int i = 10; i < 200; ++i) EXPECT_TRUE(driver.Request(0.05 * i, bus::Mode::kActive).engage);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-#include "tools/closed_loop.hpp"
+#include "tools/drive/closed_loop.hpp"
 
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "dbc/vehicle_bus.hpp"
+#include "bus/vehicle_bus.hpp"
 
 namespace {
 
@@ -15,8 +15,8 @@ struct Drive {
 };
 
 Drive DriveDemo(const std::string& controller = "lpv") {
-  lpvmpcd::Config config = lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml");
-  lpvmpcd::SelectController(config, controller);
+  loop::Config config = loop::LoadConfig(kDemo / "lpvmpcd.toml");
+  loop::SelectController(config, controller);
   Drive drive;
   drive.summary =
       tools::DriveClosedLoop(sim::LoadScenario(kDemo / "scenario.toml"), config,
@@ -40,8 +40,8 @@ TEST(ClosedLoop, StandardLpvmpcBecomesInfeasibleInTheSameScenario) {
 TEST(ClosedLoop, NmpcDrivesByTheSameFrames) {
   sim::Scenario scenario = sim::LoadScenario(kDemo / "scenario.toml");
   scenario.duration = 10.0;
-  lpvmpcd::Config config = lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml");
-  lpvmpcd::SelectController(config, "nmpc");
+  loop::Config config = loop::LoadConfig(kDemo / "lpvmpcd.toml");
+  loop::SelectController(config, "nmpc");
   int steps = 0, solved = 0;
   const sim::Summary summary = tools::DriveClosedLoop(
       scenario, config, {.step = [&](const tools::StepObservation& observed) {
@@ -59,14 +59,14 @@ TEST(ClosedLoop, NmpcDrivesByTheSameFrames) {
 TEST(ClosedLoop, StopEndsTheDriveThere) {
   int cycles = 0;
   const sim::Summary summary = tools::DriveClosedLoop(sim::LoadScenario(kDemo / "scenario.toml"),
-                                                      lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml"),
+                                                      loop::LoadConfig(kDemo / "lpvmpcd.toml"),
                                                       {.stop = [&] { return ++cycles == 50; }});
   EXPECT_LE(summary.steps, 50);
   EXPECT_FALSE(summary.completed);
 }
 
 TEST(ClosedLoop, SameScenarioGivesTheSameFramesButForTheTimeThatSolvingTook) {
-  const dbc::VehicleBus bus;
+  const bus::VehicleBus bus;
   const std::uint32_t status = bus.Find("ControllerStatus")->id;
   const Drive a = DriveDemo(), b = DriveDemo();
   ASSERT_EQ(a.frames.size(), b.frames.size());
@@ -77,15 +77,15 @@ TEST(ClosedLoop, SameScenarioGivesTheSameFramesButForTheTimeThatSolvingTook) {
 }
 
 TEST(ClosedLoop, NothingIsCommandedBeforeEngagement) {
-  const dbc::VehicleBus bus;
+  const bus::VehicleBus bus;
   bool engaged = false;
   int enabled = 0;
   for (const can::Frame& frame : DriveDemo().frames) {
     const auto message = bus.Decode(frame.id, frame.Payload());
     ASSERT_TRUE(message);
-    if (const auto* request = std::get_if<dbc::DriverRequest>(&*message))
+    if (const auto* request = std::get_if<bus::DriverRequest>(&*message))
       engaged = engaged || request->engage;
-    if (const auto* steering = std::get_if<dbc::SteeringCommand>(&*message)) {
+    if (const auto* steering = std::get_if<bus::SteeringCommand>(&*message)) {
       ASSERT_TRUE(engaged || !steering->enable);
       enabled += static_cast<int>(steering->enable);
     }

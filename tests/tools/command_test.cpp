@@ -10,7 +10,7 @@
 
 #include "tests/support/process.hpp"
 #include "tests/support/temp_dir.hpp"
-#include "tools/sweep/scenario_seed.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
 
 namespace {
 

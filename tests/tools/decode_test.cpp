@@ -1,4 +1,4 @@
-#include "tools/decode.hpp"
+#include "tools/commands/decode.hpp"
 
 #include <algorithm>
 #include <condition_variable>
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/candump_log.hpp"
-#include "dbc/vehicle_bus.hpp"
 
 namespace {
 
@@ -41,9 +41,9 @@ std::string ReadFile(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string Line(const dbc::Message& message, std::uint8_t counter, const std::string& interface = "vcan0") {
-  static const dbc::VehicleBus kBus;
-  dbc::RawMessage raw;
+std::string Line(const bus::Message& message, std::uint8_t counter, const std::string& interface = "vcan0") {
+  static const bus::VehicleBus kBus;
+  bus::RawMessage raw;
   EXPECT_NE(kBus.Encode(message, counter, raw), dbc::EncodeStatus::kNotFinite);
   can::Frame frame;
   frame.id = raw.id;
@@ -60,22 +60,22 @@ TEST(Decode, GoldenLogGivesItsText) {
 }
 
 TEST(Decode, ShowsPhysicalValuesWithUnitsAndTextsOfEnumerations) {
-  EXPECT_EQ(Decode(Line(dbc::VehiclePose{.X = 12.0, .Y = -3.5}, 7)).out,
+  EXPECT_EQ(Decode(Line(bus::VehiclePose{.X = 12.0, .Y = -3.5}, 7)).out,
             "(0000000000.000000) vcan0 VehiclePose X=12.0000 m Y=-3.5000 m | crc ok, counter 7 first\n");
   EXPECT_THAT(
-      Decode(Line(dbc::SteeringCommand{.enable = true, .mode = dbc::Mode::kSafeStop, .delta = -0.000002}, 0))
+      Decode(Line(bus::SteeringCommand{.enable = true, .mode = bus::Mode::kSafeStop, .delta = -0.000002}, 0))
           .out,
       HasSubstr("Enable=1 Mode=SafeStop PlanAge=0 Delta=-0.000002 rad |"));
 }
 
 TEST(Decode, MultiplexedFrameShowsOnlyItsOwnSignals) {
-  const std::string line = Decode(Line(dbc::ObstacleMotion{.object_id = 2, .velocity_X = 1.5}, 0)).out;
+  const std::string line = Decode(Line(bus::ObstacleMotion{.object_id = 2, .velocity_X = 1.5}, 0)).out;
   EXPECT_THAT(line, HasSubstr("Part=Motion ObjectId=2 VelocityX=1.500 m/s VelocityY=0.000 m/s |"));
 }
 
 TEST(Decode, JudgesTheCounterOfEachMessageAndInterfaceByItself) {
-  const dbc::ObstacleList list;
-  const dbc::DriverRequest request;
+  const bus::ObstacleList list;
+  const bus::DriverRequest request;
   const std::string out =
       Decode(Line(list, 13) + Line(request, 2) + Line(list, 14) + Line(list, 0) + Line(list, 0) +
              Line(list, 4) + Line(request, 3) + Line(list, 5, "vcan1") + Line(list, 3))
@@ -89,10 +89,10 @@ TEST(Decode, JudgesTheCounterOfEachMessageAndInterfaceByItself) {
 }
 
 TEST(Decode, BadCrcIsToldAndItsCounterIsNotBelieved) {
-  std::string bad = Line(dbc::ObstacleList{}, 9);
+  std::string bad = Line(bus::ObstacleList{}, 9);
   const std::size_t payload = bad.find('#') + 1;
   bad[payload] = bad[payload] == '0' ? '1' : '0';
-  const std::string out = Decode(Line(dbc::ObstacleList{}, 1) + bad + Line(dbc::ObstacleList{}, 2)).out;
+  const std::string out = Decode(Line(bus::ObstacleList{}, 1) + bad + Line(bus::ObstacleList{}, 2)).out;
   EXPECT_THAT(out, HasSubstr("| crc BAD, counter 9 not judged\n"));
   EXPECT_THAT(out, EndsWith("| crc ok, counter 2 ok\n"));
 }
@@ -115,7 +115,7 @@ TEST(Decode, FramesThatAreNotOursAreShownAsTheyCame) {
 
 TEST(Decode, MalformedLineIsAnErrorWithItsPlaceAndTheRestIsStillDecoded) {
   const Result result =
-      Decode("# a comment\n\n" + Line(dbc::ObstacleList{}, 1) + "nonsense\n" + Line(dbc::ObstacleList{}, 2));
+      Decode("# a comment\n\n" + Line(bus::ObstacleList{}, 1) + "nonsense\n" + Line(bus::ObstacleList{}, 2));
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, testing::StartsWith("drive.log:4: "));
   EXPECT_EQ(std::ranges::count(result.err, '\n'), 1);
@@ -129,7 +129,7 @@ TEST(Decode, InputThatCannotBeReadAndOutputThatCannotBeWrittenFail) {
   EXPECT_EQ(tools::RunDecode(folder, "/", out, err), 1);
   EXPECT_THAT(err.str(), HasSubstr("/: cannot be read"));
 
-  std::istringstream in(Line(dbc::ObstacleList{}, 1));
+  std::istringstream in(Line(bus::ObstacleList{}, 1));
   std::ofstream full("/dev/full");
   err.str("");
   EXPECT_EQ(tools::RunDecode(in, "a.log", full, err), 1);
@@ -202,7 +202,7 @@ TEST(Decode, LiveFrameIsWrittenOutBeforeTheNextOneComes) {
     EXPECT_EQ(tools::RunDecode(in, "-", out, err), 0);
   });
   for (std::uint8_t counter = 0; counter < 3; ++counter) {
-    pipe.Write(Line(dbc::ObstacleList{.count = counter}, counter));
+    pipe.Write(Line(bus::ObstacleList{.count = counter}, counter));
     EXPECT_THAT(text.Wait(), HasSubstr("ObstacleList Count=" + std::to_string(counter)));
   }
   pipe.Close();

@@ -1,9 +1,9 @@
-#include "tools/drive_record.hpp"
+#include "tools/drive/drive_record.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "tools/closed_loop.hpp"
+#include "tools/drive/closed_loop.hpp"
 
 namespace {
 
@@ -17,7 +17,7 @@ class DriveRecordTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     summary_ = tools::DriveClosedLoop(sim::LoadScenario(kDemo / "scenario.toml"),
-                                      lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml"),
+                                      loop::LoadConfig(kDemo / "lpvmpcd.toml"),
                                       {.frame = [](const can::Frame& frame) { frames_.push_back(frame); }});
   }
   [[nodiscard]] DriveRecord Record(const std::vector<can::Frame>& frames) const {
@@ -29,7 +29,7 @@ class DriveRecordTest : public testing::Test {
     return frame.id == bus_.Find(message)->id;
   }
 
-  const dbc::VehicleBus bus_;
+  const bus::VehicleBus bus_;
   inline static std::vector<can::Frame> frames_;
   inline static sim::Summary summary_;
 };
@@ -41,7 +41,7 @@ TEST_F(DriveRecordTest, EveryStateSetIsASampleWithTheAnswerToIt) {
   for (std::size_t k = 0; k < record.samples.size(); ++k) {
     const tools::DriveSample& sample = record.samples[k];
     EXPECT_EQ(sample.cycle, static_cast<std::int64_t>(k));
-    if (sample.status.solver_status != dbc::SolverStatus::kSolved) continue;
+    if (sample.status.solver_status != bus::SolverStatus::kSolved) continue;
     ++solved;
     ASSERT_EQ(sample.plan.size(), 9u) << k;  // N = 8
     // A plan starts where the vehicle is; the bus tells it in millimetres.
@@ -140,7 +140,7 @@ TEST_F(DriveRecordTest, PositionOfAMovingObstacleIsMovedBackToTheStart) {
       {.id = 3, .X = 200.0, .Y = 60.0, .r_x = 1.0, .r_y = 1.0, .velocity_X = 2.0, .velocity_Y = -1.0}};
   scenario.duration = 10.0;
   DriveRecorder whole(bus_, 0.05), late(bus_, 0.05);
-  (void)tools::DriveClosedLoop(scenario, lpvmpcd::LoadConfig(kDemo / "lpvmpcd.toml"),
+  (void)tools::DriveClosedLoop(scenario, loop::LoadConfig(kDemo / "lpvmpcd.toml"),
                                {.frame = [&](const can::Frame& frame) {
                                  whole.Take(frame);
                                  const bool lost = frame.timestamp < std::chrono::seconds(5);
@@ -176,8 +176,8 @@ TEST_F(DriveRecordTest, PlanChangeIsTheGreatestDistanceBetweenPlansAtTheSameTime
 TEST_F(DriveRecordTest, ControlStepsAreCountedFromTheFirstProblem) {
   const DriveRecord record = Record(frames_);
   const std::size_t first = tools::SampleOfStep(record, 0);
-  EXPECT_NE(record.samples[first].status.solver_status, dbc::SolverStatus::kNone);
-  EXPECT_EQ(record.samples[first - 1].status.solver_status, dbc::SolverStatus::kNone);
+  EXPECT_NE(record.samples[first].status.solver_status, bus::SolverStatus::kNone);
+  EXPECT_EQ(record.samples[first - 1].status.solver_status, bus::SolverStatus::kNone);
   EXPECT_EQ(tools::SampleOfStep(record, 10), first + 10);
   EXPECT_EQ(tools::SampleOfStep(record, 1'000'000), record.samples.size() - 1);
 }
@@ -196,7 +196,7 @@ TEST_F(DriveRecordTest, FrameThatFailsItsCheckOrIsOfAnotherSenderIsPassedOver) {
 
 TEST_F(DriveRecordTest, ThinnedKeepsWhatIsNearObstaclesAndWhatWasNotSolved) {
   DriveRecord record = Record(frames_);
-  record.samples[333].status.solver_status = dbc::SolverStatus::kInfeasible;
+  record.samples[333].status.solver_status = bus::SolverStatus::kInfeasible;
   const DriveRecord thinned = tools::Thinned(record);
   EXPECT_LT(thinned.samples.size(), record.samples.size() / 2);
   EXPECT_GT(thinned.samples.size(), record.samples.size() / 4);
@@ -211,7 +211,7 @@ TEST_F(DriveRecordTest, ThinnedKeepsWhatIsNearObstaclesAndWhatWasNotSolved) {
       ++next;
     } else {
       EXPECT_GT(distance, 20.0);
-      EXPECT_NE(sample.status.solver_status, dbc::SolverStatus::kInfeasible);
+      EXPECT_NE(sample.status.solver_status, bus::SolverStatus::kInfeasible);
     }
   }
   EXPECT_EQ(next, thinned.samples.size());

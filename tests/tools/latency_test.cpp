@@ -2,14 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "config/route_file.hpp"
-#include "tools/drive_figures.hpp"
+#include "tools/drive/drive_figures.hpp"
 
 namespace {
 
 const std::filesystem::path kWholeDrive = LPVMPC_SOURCE_DIR "/scenarios/whole_drive";
 
-tools::DriveFigures Drive(int delay_cycles, lpvmpcd::Time reckoned_with) {
-  lpvmpcd::Config config = lpvmpcd::LoadConfig(kWholeDrive / "lpvmpcd.toml");
+tools::DriveFigures Drive(int delay_cycles, base::Time reckoned_with) {
+  loop::Config config = loop::LoadConfig(kWholeDrive / "lpvmpcd.toml");
   config.loop.command_delay = reckoned_with;
   sim::Scenario scenario = sim::LoadScenario(kWholeDrive / "scenario.toml");
   scenario.steering.delay_cycles = scenario.acceleration.delay_cycles = delay_cycles;
@@ -21,7 +21,7 @@ TEST(Latency, Of50MsNeitherEndsTheDriveNorMakesTheWheelSwing) {
   using namespace std::chrono_literals;
   const tools::DriveFigures without = Drive(0, 0ms);
   ASSERT_TRUE(without.summary.passed());
-  for (const lpvmpcd::Time reckoned_with : {0ms, 50ms, 100ms}) {
+  for (const base::Time reckoned_with : {0ms, 50ms, 100ms}) {
     const tools::DriveFigures with = Drive(1, reckoned_with);
     EXPECT_TRUE(with.summary.passed()) << reckoned_with.count();
     EXPECT_EQ(with.summary.rejected_plans, 0);

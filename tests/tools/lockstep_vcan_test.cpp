@@ -13,8 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bus/vehicle_bus.hpp"
 #include "can/candump_log.hpp"
-#include "dbc/vehicle_bus.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -75,15 +75,15 @@ TEST_F(LockstepOnVcan, DriveMeetsTheScenariosExpectations) {
 }
 
 TEST_F(LockstepOnVcan, ItSetsOffFromStandstillAndStopsAtTheEndOfTheRoute) {
-  const dbc::VehicleBus bus;
+  const bus::VehicleBus bus;
   std::vector<double> speeds;
   bool route_end = false;
   for (const can::Frame& frame : ReadLog(folder->path() / "candump.log")) {
     const auto message = bus.Decode(frame.id, frame.Payload());
     ASSERT_TRUE(message);
-    if (const auto* motion = std::get_if<dbc::VehicleMotion>(&*message)) speeds.push_back(motion->upsilon);
-    if (const auto* of = std::get_if<dbc::ControllerStatus>(&*message)) {
-      route_end = route_end || of->fault_code == dbc::FaultCode::kRouteEnd;
+    if (const auto* motion = std::get_if<bus::VehicleMotion>(&*message)) speeds.push_back(motion->upsilon);
+    if (const auto* of = std::get_if<bus::ControllerStatus>(&*message)) {
+      route_end = route_end || of->fault_code == bus::FaultCode::kRouteEnd;
     }
   }
   ASSERT_FALSE(speeds.empty());
@@ -96,7 +96,7 @@ TEST_F(LockstepOnVcan, ItSetsOffFromStandstillAndStopsAtTheEndOfTheRoute) {
 TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
   const std::filesystem::path log = folder->path() / "memory.log";
   ASSERT_EQ(test_support::Run({LPVMPC, "run", "--scenario", kScenario, "--log", log.string()}).status, 0);
-  const dbc::VehicleBus bus;
+  const bus::VehicleBus bus;
   const std::set<std::uint32_t> ids{bus.Find("SteeringCommand")->id, bus.Find("AccelerationCommand")->id};
   std::vector<can::Frame> on_bus = WithId(ReadLog(folder->path() / "candump.log"), ids);
   const std::vector<can::Frame> in_memory = WithId(ReadLog(log), ids);
@@ -128,13 +128,13 @@ TEST_F(LockstepOnVcan, SummaryTellsWhatWasRelaxedAsInMemory) {
 }
 
 TEST_F(LockstepOnVcan, EveryFrameOnTheBusPassesItsChecks) {
-  const dbc::VehicleBus bus;
+  const bus::VehicleBus bus;
   std::map<std::string, int> count;
   for (const can::Frame& frame : ReadLog(folder->path() / "candump.log")) {
-    ASSERT_EQ(bus.Check(frame.id, frame.Payload()).verdict, dbc::E2eVerdict::kOk);
+    ASSERT_EQ(bus.Check(frame.id, frame.Payload()).verdict, bus::E2eVerdict::kOk);
     ++count[bus.Find(frame.id)->name];
   }
-  for (const dbc::MessageInfo& message : bus.messages()) EXPECT_GT(count[message.name], 1000) << message.name;
+  for (const bus::MessageInfo& message : bus.messages()) EXPECT_GT(count[message.name], 1000) << message.name;
 }
 
 TEST_F(LockstepOnVcan, CanplayerPlaysTheLogAgain) {

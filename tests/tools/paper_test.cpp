@@ -71,7 +71,7 @@ TEST(FeasibilityScenarios, TrustRegionIsFeasibleInAllAndTheStandardControllerInT
 }
 
 TEST(CircleDrive, OutcomeTellsTheControllersApart) {
-  using enum lpvmpcd::ControllerKind;
+  using enum loop::ControllerKind;
   EXPECT_EQ(tools::Drive({.speed = 12.0, .shift = 0.5, .horizon = 15, .controller = kLpv}),
             CircleOutcome::kClear);
   EXPECT_EQ(tools::Drive({.speed = 12.0, .shift = 0.5, .horizon = 15, .controller = kLpvStandard}),
@@ -81,7 +81,7 @@ TEST(CircleDrive, OutcomeTellsTheControllersApart) {
 }
 
 TEST(CircleDrive, StepThatLacksMillimetresIsMarginalOneThatLacksMoreIsInfeasible) {
-  using enum lpvmpcd::ControllerKind;
+  using enum loop::ControllerKind;
   EXPECT_EQ(tools::Drive({.speed = 12.0, .shift = 0.5, .horizon = 15, .controller = kNmpc}),
             CircleOutcome::kMarginal);
   EXPECT_EQ(tools::Drive({.speed = 11.0, .shift = 1.4, .horizon = 8, .controller = kLpv}),
@@ -163,7 +163,7 @@ tools::FeasibilityMap MadeUpMap() {
   return {.speeds = {10.0, 11.0, 12.0},
           .shifts = {0.1, 0.2, 0.3},
           .panels = {
-              {.controller = lpvmpcd::ControllerKind::kLpv,
+              {.controller = loop::ControllerKind::kLpv,
                .horizon = 8,
                .cells = {{kClear, kClear, kMarginal}, {kClear, kTouch, kClear}, {kClear, kClear, kClear}}}}};
 }

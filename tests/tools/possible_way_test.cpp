@@ -1,9 +1,9 @@
-#include "tools/sweep/possible_way.hpp"
+#include "tools/scenarios/possible_way.hpp"
 
 #include <array>
 #include <gtest/gtest.h>
 
-#include "tools/sweep/encounter.hpp"
+#include "tools/scenarios/encounter.hpp"
 
 namespace {
 

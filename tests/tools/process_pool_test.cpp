@@ -1,4 +1,4 @@
-#include "tools/process_pool.hpp"
+#include "tools/io/process_pool.hpp"
 
 #include <csignal>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "tools/qp_instance.hpp"
+#include "tools/bench/qp_instance.hpp"
 
 #include <fstream>
 #include <gtest/gtest.h>

@@ -1,24 +1,24 @@
-#include "tools/sweep/random_scenario.hpp"
+#include "tools/scenarios/random_scenario.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 
-#include "tools/sweep/encounter.hpp"
-#include "tools/sweep/scenario_seed.hpp"
+#include "tools/scenarios/encounter.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
 
 namespace {
 
 using tools::DrawScenario;
 using tools::RandomScenario;
-using tools::SweepRanges;
+using tools::ScenarioRanges;
 
 constexpr int kDrawn = 300;
-constexpr SweepRanges kRanges{.speed = {3.0, 40.0}, .mu = {0.3, 1.2}};
+constexpr ScenarioRanges kRanges{.speed = {3.0, 40.0}, .mu = {0.3, 1.2}};
 
 template <typename Look>
-void ForEach(const SweepRanges& ranges, const Look& look) {
+void ForEach(const ScenarioRanges& ranges, const Look& look) {
   for (int i = 0; i < kDrawn; ++i) {
     const std::uint64_t seed = tools::ScenarioSeed(7, static_cast<std::uint64_t>(i));
     SCOPED_TRACE(seed);

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "tools/report_page.hpp"
+#include "tools/report/report_page.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;

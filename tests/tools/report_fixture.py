@@ -1,4 +1,4 @@
-"""Data of a report (tools/report_page.hpp) that hold everything that a page can show."""
+"""Data of a report (tools/report/report_page.hpp) that hold everything that a page can show."""
 
 import math
 

@@ -1,4 +1,4 @@
-#include "tools/report.hpp"
+#include "tools/commands/report.hpp"
 
 #include <fstream>
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/temp_dir.hpp"
-#include "tools/run.hpp"
+#include "tools/commands/run.hpp"
 
 namespace {
 

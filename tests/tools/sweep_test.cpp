@@ -11,11 +11,11 @@
 
 #include "config/text_file.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tools/io/write_file.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
 #include "tools/sweep/drive_sweep.hpp"
 #include "tools/sweep/merge_parts.hpp"
-#include "tools/sweep/scenario_seed.hpp"
 #include "tools/sweep/sweep_config.hpp"
-#include "tools/write_file.hpp"
 
 namespace {
 
@@ -145,7 +145,7 @@ TEST(SweepDrive, CornerBesideTheRoadIsOffIt) {
 }
 
 TEST(SweepDrive, DriveThatTheDriverBrakesToAStopIsStopped) {
-  const tools::SweepRanges slow{.speed = {.low = 5.0, .high = 5.0}, .mu = {.low = 0.8, .high = 1.0}};
+  const tools::ScenarioRanges slow{.speed = {.low = 5.0, .high = 5.0}, .mu = {.low = 0.8, .high = 1.0}};
   tools::RandomScenario drawn = tools::DrawScenario(3, slow);
   drawn.scenario.obstacles.clear();
   drawn.scenario.driver.brake_at = 1.0;
@@ -162,22 +162,22 @@ TEST(SweepDrive, DriveWithoutAnEngagementIsFailed) {
 }
 
 TEST(SweepDrive, SlowestStartIsFastEnoughToEngage) {
-  const tools::SweepRanges ranges{.speed = tools::kSpeedLimits, .mu = {}};
+  const tools::ScenarioRanges ranges{.speed = tools::kSpeedLimits, .mu = {}};
   for (const std::string& controller : tools::SweepControllers())
     EXPECT_LT(tools::ConfigFor(controller, ranges).loop.engage_min_speed, 0.9 * ranges.speed.low);
 }
 
 // The cost of lpv-affine is measured against the nonlinear controller that is driven alike.
 TEST(SweepConfig, NmpcHasTheProblemOfLpvAffine) {
-  const lpvmpcd::Config affine = tools::ConfigFor("lpv-affine", {}), nmpc = tools::ConfigFor("nmpc", {});
-  EXPECT_EQ(nmpc.controller, lpvmpcd::ControllerKind::kNmpcAffine);
+  const loop::Config affine = tools::ConfigFor("lpv-affine", {}), nmpc = tools::ConfigFor("nmpc", {});
+  EXPECT_EQ(nmpc.controller, loop::ControllerKind::kNmpcAffine);
   EXPECT_EQ(HorizonOf(nmpc), HorizonOf(affine));
   EXPECT_EQ(nmpc.affine.mu, affine.affine.mu);
   EXPECT_EQ(nmpc.affine.footprint.half_width, affine.affine.footprint.half_width);
   EXPECT_EQ(nmpc.loop.command_delay, affine.loop.command_delay);
   EXPECT_TRUE(nmpc.loop.by_progress);
   // A drive's file names the kind, and is read again.
-  EXPECT_EQ(tools::ConfigFor(lpvmpcd::ControllerName(nmpc.controller), {}).controller, nmpc.controller);
+  EXPECT_EQ(tools::ConfigFor(loop::ControllerName(nmpc.controller), {}).controller, nmpc.controller);
 }
 
 // ---- the table

@@ -1,4 +1,4 @@
-#include "tools/write_file.hpp"
+#include "tools/io/write_file.hpp"
 
 #include <fstream>
 #include <gmock/gmock.h>

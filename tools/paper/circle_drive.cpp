@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "tools/closed_loop.hpp"
+#include "tools/drive/closed_loop.hpp"
 
 namespace tools {
 
@@ -28,9 +28,9 @@ CircleOutcome Drive(const CircleDrive& drive) {
                          .r_y = kCircleObstacleRadius,
                          .side = control::PassingSide::kLeft}};
 
-  lpvmpcd::Config config;
+  loop::Config config;
   config.mpc.horizon = drive.horizon;
-  lpvmpcd::SelectController(config, lpvmpcd::ControllerName(drive.controller));
+  loop::SelectController(config, loop::ControllerName(drive.controller));
   config.loop.send_horizon = false;
   // The first step that is not solved decides.
   std::optional<CircleOutcome> unsolved;
@@ -38,7 +38,7 @@ CircleOutcome Drive(const CircleDrive& drive) {
       .step =
           [&](const StepObservation& observed) {
             if (unsolved || observed.plan.status == control::SolverStatus::kSolved) return;
-            const auto violation = observed.controller.Unsatisfied();
+            const auto violation = observed.controller.DiagnoseInfeasibility();
             const bool marginal = violation &&
                                   violation->constraint.kind == control::ConstraintKind::kObstacle &&
                                   violation->amount < kMarginalShortfall;

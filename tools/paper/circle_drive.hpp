@@ -3,7 +3,7 @@
 #pragma once
 
 #include "config/route_file.hpp"
-#include "daemon/config.hpp"
+#include "loop/config.hpp"
 #include "sim/scenario.hpp"
 
 namespace tools {
@@ -12,7 +12,7 @@ struct CircleDrive {
   double speed = 12.0;  // [m/s]
   double shift = 0.5;   // by which the path has to give way to clear the obstacle, 0 to its diameter [m]
   int horizon = 8;      // N
-  lpvmpcd::ControllerKind controller = lpvmpcd::ControllerKind::kLpv;
+  loop::ControllerKind controller = loop::ControllerKind::kLpv;
 };
 
 inline constexpr double kCircleRadius = 100.0;        // of the road's reference path [m]

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "daemon/assembly.hpp"
+#include "loop/assembly.hpp"
 
 namespace tools {
 namespace {
@@ -37,9 +37,9 @@ constexpr std::array<Published, kComparisons> kPublished{{
      .lpv = {.average = 0.0150, .maximum = 0.0250, .minimum = 0.0131}},
 }};
 
-ComparedDrive Drive(const sim::Scenario& scenario, const lpvmpcd::Config& config,
-                    const config::RouteFile& road, const CostWeights& weights, int repeat, ProgressBar& bar) {
-  const dbc::VehicleBus bus = lpvmpcd::OpenBus(config);
+ComparedDrive Drive(const sim::Scenario& scenario, const loop::Config& config, const config::RouteFile& road,
+                    const CostWeights& weights, int repeat, ProgressBar& bar) {
+  const bus::VehicleBus bus = loop::OpenBus(config);
   ComparedDrive drive{.figures = {}, .times = {}, .record = {}, .config = config};
   std::vector<double> least;
   for (int i = 0; i < repeat; ++i) {
@@ -71,9 +71,9 @@ std::vector<ComparisonRow> CompareWithNmpc(const std::filesystem::path& folder, 
   for (const Published& published : kPublished) {
     const sim::Scenario scenario = sim::LoadScenario(folder / fmt::format("{}.toml", published.name));
     const auto config_of = [&](const char* kind) {
-      return lpvmpcd::LoadConfig(folder / fmt::format("{}-{}.toml", kind, published.weights));
+      return loop::LoadConfig(folder / fmt::format("{}-{}.toml", kind, published.weights));
     };
-    const lpvmpcd::Config lpv = config_of("lpv"), nmpc = config_of("nmpc");
+    const loop::Config lpv = config_of("lpv"), nmpc = config_of("nmpc");
     const config::RouteFile road = config::LoadRoute(lpv.route);
     const CostWeights weights{.Q = nmpc.mpc.Q, .R = nmpc.mpc.R};
     bar.Name(std::string(published.name) + ", NMPC");

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/drive_figures.hpp"
-#include "tools/drive_record.hpp"
-#include "tools/progress_bar.hpp"
+#include "tools/drive/drive_figures.hpp"
+#include "tools/drive/drive_record.hpp"
+#include "tools/io/progress_bar.hpp"
 
 namespace tools {
 
@@ -23,7 +23,7 @@ struct ComparedDrive {
   DriveFigures figures;
   StepTimes times;
   DriveRecord record;
-  lpvmpcd::Config config;
+  loop::Config config;
 };
 
 struct ComparisonRow {

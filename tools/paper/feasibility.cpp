@@ -4,16 +4,16 @@
 #include <stdexcept>
 
 #include "config/toml_table.hpp"
-#include "daemon/assembly.hpp"
-#include "tools/scenario_config.hpp"
+#include "loop/assembly.hpp"
+#include "tools/drive/scenario_config.hpp"
 
 namespace tools {
 namespace {
 
-FeasibilityDrive Drive(const sim::Scenario& scenario, lpvmpcd::Config config, const config::RouteFile& road,
+FeasibilityDrive Drive(const sim::Scenario& scenario, loop::Config config, const config::RouteFile& road,
                        const char* controller) {
-  lpvmpcd::SelectController(config, controller);
-  const dbc::VehicleBus bus = lpvmpcd::OpenBus(config);
+  loop::SelectController(config, controller);
+  const bus::VehicleBus bus = loop::OpenBus(config);
   DriveRecorder recorder(bus, config.mpc.t_s);
   const DriveFigures figures = MeasureDrive(scenario, config, road, {.Q = config.mpc.Q, .R = config.mpc.R},
                                             [&](const can::Frame& frame) { recorder.Take(frame); });
@@ -42,7 +42,7 @@ std::vector<FeasibilityRow> CompareFeasibility(const std::filesystem::path& fold
     const std::string number = fmt::format("{:02}", i);
     const std::filesystem::path file = folder / (number + ".toml");
     const sim::Scenario scenario = sim::LoadScenario(file);
-    const lpvmpcd::Config config = LoadConfigFor(scenario, file, {});
+    const loop::Config config = LoadConfigFor(scenario, file, {});
     const config::RouteFile road = config::LoadRoute(config.route);
     if (scenario.obstacles.size() != 1) throw config::ConfigError(file.string() + ": must hold one obstacle");
     bar.Name("feasibility " + number);

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "tools/drive_figures.hpp"
-#include "tools/drive_record.hpp"
-#include "tools/progress_bar.hpp"
+#include "tools/drive/drive_figures.hpp"
+#include "tools/drive/drive_record.hpp"
+#include "tools/io/progress_bar.hpp"
 
 namespace tools {
 
 struct FeasibilityDrive {
   DriveFigures figures;
   DriveRecord record;
-  lpvmpcd::Config config;
+  loop::Config config;
 
   double largest_plan_change = 0.0;  // before the first infeasible step, if there is one [m]
 

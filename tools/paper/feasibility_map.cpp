@@ -4,12 +4,12 @@
 #include <array>
 #include <string>
 
-#include "tools/process_pool.hpp"
+#include "tools/io/process_pool.hpp"
 
 namespace tools {
 namespace {
 
-using lpvmpcd::ControllerKind;
+using loop::ControllerKind;
 
 constexpr std::array kControllers{ControllerKind::kLpvStandard, ControllerKind::kLpv, ControllerKind::kNmpc};
 constexpr std::array kHorizons{8, 15};

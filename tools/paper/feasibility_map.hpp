@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "tools/io/progress_bar.hpp"
 #include "tools/paper/circle_drive.hpp"
-#include "tools/progress_bar.hpp"
 
 namespace tools {
 
 struct MapPanel {
-  lpvmpcd::ControllerKind controller;
+  loop::ControllerKind controller;
   int horizon;
   std::vector<std::vector<CircleOutcome>> cells;  // for each shift, for each speed
 

@@ -53,7 +53,7 @@ ordered_json MapData(const FeasibilityMap& map) {
   for (const MapPanel& panel : map.panels) {
     ordered_json limits = ordered_json::array();
     for (std::size_t i = 0; i < map.speeds.size(); ++i) limits.push_back(OrNull(map.Limit(panel, i)));
-    panels.push_back({{"controller", lpvmpcd::ControllerName(panel.controller)},
+    panels.push_back({{"controller", loop::ControllerName(panel.controller)},
                       {"horizon", panel.horizon},
                       {"clear", panel.clear()},
                       {"limit_m", limits},

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/paper/paper_result.hpp"
-#include "tools/report_data.hpp"
+#include "tools/report/report_data.hpp"
 
 namespace tools {
 namespace {
@@ -157,7 +157,7 @@ void AddMap(const PaperResult& result, ordered_json& page) {
   ordered_json panels = ordered_json::array(), marks = ordered_json::array(), limits = ordered_json::array();
   for (std::size_t p = 0; p < map.panels.size(); ++p) {
     const MapPanel& panel = map.panels[p];
-    const std::string controller = lpvmpcd::ControllerName(panel.controller);
+    const std::string controller = loop::ControllerName(panel.controller);
     panels.push_back({{"title", fmt::format("{}, N = {}: {} of {} clear", controller, panel.horizon,
                                             panel.clear(), map.speeds.size() * map.shifts.size())},
                       {"cells", CellData(panel)}});
@@ -167,7 +167,7 @@ void AddMap(const PaperResult& result, ordered_json& page) {
       limit.push_back(reached ? fmt::format("{:.1f}", *reached) : "-");
     }
     limits.push_back(limit);
-    if (panel.controller == lpvmpcd::ControllerKind::kNmpc) continue;
+    if (panel.controller == loop::ControllerKind::kNmpc) continue;
     for (const FeasibilityRow& row : result.feasibility) {
       if (row.trust_region.config.mpc.horizon != panel.horizon) continue;
       marks.push_back({{"speed", row.speed}, {"shift", row.shift}, {"panel", p}, {"label", row.number}});

@@ -64,7 +64,7 @@ void AppendMap(const FeasibilityMap& map, std::string& text) {
       "\nMap: feasible and clear (.), short by less than a centimetre (m), feasible but touching (t), off "
       "the road (r), infeasible (x); shift of the path up, speed across\n";
   for (const MapPanel& panel : map.panels) {
-    text += fmt::format("\n  {}, N = {}: {} of {} clear\n", lpvmpcd::ControllerName(panel.controller),
+    text += fmt::format("\n  {}, N = {}: {} of {} clear\n", loop::ControllerName(panel.controller),
                         panel.horizon, panel.clear(), map.speeds.size() * map.shifts.size());
     for (std::size_t i = map.shifts.size(); i-- > 0;) {
       text += fmt::format("  {:4.1f} m ", map.shifts[i]);

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/process_pool.hpp"
-#include "tools/progress_bar.hpp"
-#include "tools/sweep/random_scenario.hpp"
-#include "tools/sweep/scenario_seed.hpp"
+#include "tools/io/process_pool.hpp"
+#include "tools/io/progress_bar.hpp"
+#include "tools/scenarios/random_scenario.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
 
 namespace tools {
 

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/report.hpp"
+#include "tools/commands/report.hpp"
+#include "tools/io/write_file.hpp"
 #include "tools/sweep/drive_sweep.hpp"
 #include "tools/sweep/merge_parts.hpp"
-#include "tools/write_file.hpp"
 
 namespace tools {
 namespace {

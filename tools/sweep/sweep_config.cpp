@@ -11,23 +11,23 @@ constexpr double kCornerSwing = 0.2;
 constexpr double kMeanDelay = 0.05;
 
 std::string DaemonsName(const std::string& controller) {
-  using enum lpvmpcd::ControllerKind;
-  if (controller == kCostStandard) return lpvmpcd::ControllerName(kNmpcAffine);
-  if (controller == kFixedRadius) return lpvmpcd::ControllerName(kLpvAffine);
+  using enum loop::ControllerKind;
+  if (controller == kCostStandard) return loop::ControllerName(kNmpcAffine);
+  if (controller == kFixedRadius) return loop::ControllerName(kLpvAffine);
   return controller;
 }
 
 }  // namespace
 
-lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& ranges) {
-  lpvmpcd::Config config;
-  lpvmpcd::SelectController(config, DaemonsName(controller));
+loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& ranges) {
+  loop::Config config;
+  loop::SelectController(config, DaemonsName(controller));
   config.affine.adapt_trust_region = controller != kFixedRadius;
   config.mpc.obstacle_margin += kVehicleFootprint.half_width + kCornerSwing;
   config.affine.footprint = kVehicleFootprint;
   config.affine.mu = ranges.mu.low;
   if (IsAffine(config.controller)) {
-    config.loop.command_delay = lpvmpcd::FromSeconds(kMeanDelay);
+    config.loop.command_delay = base::FromSeconds(kMeanDelay);
   }
   config.service.interface = "vcan0";  // in logs
   // Vehicles start at 0.9 of the target speed, which may be below what the daemon asks of a driver.
@@ -36,12 +36,12 @@ lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& rang
 }
 
 std::vector<std::string> SweepControllers() {
-  using enum lpvmpcd::ControllerKind;
-  return {lpvmpcd::ControllerName(kLpvAffine), kFixedRadius, lpvmpcd::ControllerName(kLpv),
-          lpvmpcd::ControllerName(kLpvStandard), kCostStandard};
+  using enum loop::ControllerKind;
+  return {loop::ControllerName(kLpvAffine), kFixedRadius, loop::ControllerName(kLpv),
+          loop::ControllerName(kLpvStandard), kCostStandard};
 }
 
-config::RouteFile RouteFor(const RandomScenario& drawn, const lpvmpcd::Config& config) {
+config::RouteFile RouteFor(const RandomScenario& drawn, const loop::Config& config) {
   config::RouteFile route = drawn.route;
   if (IsAffine(config.controller)) return route;
   route.road.left -= drawn.scenario.footprint.half_width;

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "config/route_file.hpp"
-#include "daemon/config.hpp"
-#include "tools/sweep/random_scenario.hpp"
-#include "tools/sweep/sweep_ranges.hpp"
+#include "loop/config.hpp"
+#include "tools/scenarios/random_scenario.hpp"
+#include "tools/scenarios/scenario_ranges.hpp"
 
 namespace tools {
 
@@ -19,12 +19,12 @@ inline constexpr const char* kFixedRadius = "lpv-affine-fixed";  // its trust ra
 // lowest μ of the range and the mean delay, and plans 2 s ahead; the paper's plan 0.4 s ahead as there. "nmpc" is here the
 // one with lpv-affine's problem, nmpc-affine, by which the cost is measured. Throws std::invalid_argument: no such
 // controller.
-[[nodiscard]] lpvmpcd::Config ConfigFor(const std::string& controller, const SweepRanges& ranges);
+[[nodiscard]] loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& ranges);
 
 // The names of those that a sweep drives.
 [[nodiscard]] std::vector<std::string> SweepControllers();
 
 // Its road: for a point, narrower by the vehicle's width.
-[[nodiscard]] config::RouteFile RouteFor(const RandomScenario& drawn, const lpvmpcd::Config& config);
+[[nodiscard]] config::RouteFile RouteFor(const RandomScenario& drawn, const loop::Config& config);
 
 }  // namespace tools

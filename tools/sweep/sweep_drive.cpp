@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <tuple>
 
-#include "tools/drive_figures.hpp"
+#include "tools/drive/drive_figures.hpp"
 #include "tools/sweep/sweep_config.hpp"
 
 namespace tools {
@@ -51,11 +51,11 @@ const char* NameOf(SweepOutcome outcome) {
   return "failed";
 }
 
-TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, const SweepRanges& ranges,
+TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, const ScenarioRanges& ranges,
                                    const std::string& controller,
                                    const std::function<void(const can::Frame&)>& frame) {
   const control::MpcSettings weights;
-  const lpvmpcd::Config config = ConfigFor(controller, ranges);
+  const loop::Config config = ConfigFor(controller, ranges);
   const DriveFigures figures = MeasureDrive(drawn.scenario, config, RouteFor(drawn, config),
                                             {.Q = weights.Q, .R = weights.R, .along = false}, frame);
   const sim::Summary& summary = figures.summary;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "can/frame.hpp"
-#include "tools/sweep/random_scenario.hpp"
+#include "tools/scenarios/random_scenario.hpp"
 
 namespace tools {
 
@@ -47,7 +47,7 @@ struct TimedSweepDrive {
 
 // `frame` is called with every frame of both sides. Throws std::invalid_argument: no such controller.
 [[nodiscard]] TimedSweepDrive DriveSweepScenario(
-    const RandomScenario& drawn, const SweepRanges& ranges, const std::string& controller,
+    const RandomScenario& drawn, const ScenarioRanges& ranges, const std::string& controller,
     const std::function<void(const can::Frame&)>& frame = nullptr);
 
 }  // namespace tools

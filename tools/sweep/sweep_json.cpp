@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/sweep/scenario_seed.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
 
 namespace tools {
 namespace {
@@ -71,7 +71,7 @@ void TakeHistogram(const ordered_json& json, TimeHistogram& times) {
 }
 
 ordered_json SetupJson(const SweepSetup& setup) {
-  const SweepRanges& ranges = setup.ranges;
+  const ScenarioRanges& ranges = setup.ranges;
   return {{"seed", setup.seed},
           {"count", setup.count},
           {"speed_m_s", {ranges.speed.low, ranges.speed.high}},

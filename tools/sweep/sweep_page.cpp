@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "daemon/assembly.hpp"
-#include "tools/drive_record.hpp"
-#include "tools/report_data.hpp"
+#include "loop/assembly.hpp"
+#include "tools/drive/drive_record.hpp"
+#include "tools/report/report_data.hpp"
 #include "tools/sweep/sweep_config.hpp"
 #include "tools/sweep/sweep_result.hpp"
 
@@ -70,7 +70,7 @@ ordered_json FailuresSection(const SweepResult& result) {
          result.setup.controllers[failure.controller],
          ordered_json{{"text", NameOf(drive.outcome)}, {"verdict", "bad"}}, drive.why});
   }
-  const SweepRanges& ranges = result.setup.ranges;
+  const ScenarioRanges& ranges = result.setup.ranges;
   return {{"type", "table"},
           {"title", "Failures"},
           {"paragraphs",
@@ -96,8 +96,8 @@ void AddDrawing(const SweepResult& result, const SweepFailure& failure, ordered_
   const SweptScenario& scenario = result.scenarios[failure.scenario];
   const std::string& controller = result.setup.controllers[failure.controller];
   const RandomScenario drawn = DrawScenario(scenario.seed, result.setup.ranges);
-  const lpvmpcd::Config config = ConfigFor(controller, result.setup.ranges);
-  const dbc::VehicleBus bus = lpvmpcd::OpenBus(config);
+  const loop::Config config = ConfigFor(controller, result.setup.ranges);
+  const bus::VehicleBus bus = loop::OpenBus(config);
   DriveRecorder recorder(bus, config.mpc.t_s);
   const SweepDrive drive =
       DriveSweepScenario(drawn, result.setup.ranges, controller, [&](const can::Frame& frame) {

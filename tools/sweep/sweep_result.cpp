@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sim/percentile.hpp"
+#include "base/percentile.hpp"
 #include "tools/sweep/sweep_config.hpp"
 
 namespace tools {
@@ -12,7 +12,7 @@ namespace {
 std::optional<double> Median(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
   std::ranges::sort(values);
-  return sim::Percentile(values, 0.5);
+  return base::Percentile(values, 0.5);
 }
 
 // Of the drives that passed, `figure` as far as there is one.

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "tools/sweep/possible_way.hpp"
+#include "tools/scenarios/possible_way.hpp"
 #include "tools/sweep/sweep_drive.hpp"
 #include "tools/sweep/sweep_setup.hpp"
 #include "tools/sweep/time_histogram.hpp"

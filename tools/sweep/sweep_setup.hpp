@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "tools/sweep/sweep_ranges.hpp"
+#include "tools/scenarios/scenario_ranges.hpp"
 
 namespace tools {
 
 struct SweepSetup {
   std::uint64_t seed = 0;  // below kSeedEnd
   int count = 1;           // scenarios, >= 1
-  SweepRanges ranges;
+  ScenarioRanges ranges;
   std::vector<std::string> controllers;  // names, each once
 
   // "200 scenarios of seed 1, 8..20 m/s, mu 0.4..1, by lpv, nmpc"

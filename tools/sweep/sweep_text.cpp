@@ -31,7 +31,7 @@ void AppendTable(const SweepResult& result, std::string& text) {
 void AppendFailures(const SweepResult& result, std::string& text) {
   const std::vector<SweepFailure> failures = Failures(result);
   if (failures.empty()) return;
-  const SweepRanges& ranges = result.setup.ranges;
+  const ScenarioRanges& ranges = result.setup.ranges;
   text += fmt::format(
       "\nContact, off the road or failed; to drive one again:\n"
       "  lpvmpc run --sweep-seed SEED --speed {} {} --mu {} {} --controller NAME\n\n",

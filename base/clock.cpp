@@ -1,0 +1,45 @@
+#include "base/clock.hpp"
+
+#include <cstdint>
+#include <ctime>
+#include <sys/timerfd.h>
+
+#include "base/system_call.hpp"
+
+namespace base {
+namespace {
+
+Time Read(clockid_t clock) {
+  timespec t{};
+  ::clock_gettime(clock, &t);
+  return std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
+}
+
+}  // namespace
+
+Time MonotonicNow() {
+  return Read(CLOCK_MONOTONIC);
+}
+
+Time RealNow() {
+  return Read(CLOCK_REALTIME);
+}
+
+Timer::Timer()
+    : fd_(Checked(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC), "timerfd_create")) {}
+
+void Timer::Set(Time first, Time every) {
+  const auto to_timespec = [](Time time) {
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
+    return timespec{.tv_sec = seconds.count(), .tv_nsec = (time - seconds).count()};
+  };
+  const itimerspec spec{.it_interval = to_timespec(every), .it_value = to_timespec(first)};
+  static_cast<void>(Checked(::timerfd_settime(fd_.get(), 0, &spec, nullptr), "timerfd_settime"));
+}
+
+bool Timer::Expired() {
+  std::uint64_t times = 0;
+  return ::read(fd_.get(), &times, sizeof(times)) == sizeof(times);
+}
+
+}  // namespace base

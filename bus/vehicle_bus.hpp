@@ -1,0 +1,96 @@
+// The typed messages bound to a DBC: physical values to payload bytes and back, with end-to-end protection.
+//
+// Example:
+//   VehicleBus bus;                                        // the built-in dbc/vehicle.dbc
+//   RawMessage raw;
+//   if (bus.Encode(VehiclePose{.X = 12.0, .Y = -3.5}, counter, raw) != dbc::EncodeStatus::kOk) ...
+//   ... bus.Check(raw.id, raw.Payload()) ... bus.Decode(raw.id, raw.Payload()) ...
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/messages.hpp"
+#include "dbc/codec.hpp"
+#include "dbc/database.hpp"
+
+namespace bus {
+
+// The signals of the end-to-end protection, which every message has.
+inline constexpr std::string_view kCrcSignal = "CRC";
+inline constexpr std::string_view kCounterSignal = "Counter";
+
+struct RawMessage {
+  std::uint32_t id = 0;
+  std::uint8_t length = 0;
+  std::array<std::byte, 8> data{};
+
+  [[nodiscard]] std::span<const std::byte> Payload() const { return {data.data(), length}; }
+};
+
+// What is on the wire of one message of ours, for the receive monitor.
+struct MessageInfo {
+  std::uint32_t id = 0;
+  std::string name;
+  std::uint8_t length = 0;
+  double period = 0.0;        // [s], attribute GenMsgCycleTime; 0 = not periodic
+  std::uint16_t data_id = 0;  // attribute E2EDataId
+};
+
+enum class E2eVerdict : std::uint8_t { kOk, kWrongLength, kWrongCrc, kInvalidCounter, kUnknownMessage };
+
+struct E2eCheck {
+  E2eVerdict verdict = E2eVerdict::kUnknownMessage;
+  std::uint8_t counter = 0;  // as received; valid unless the length is wrong or the message unknown
+};
+
+// Every id here is a standard one: keep extended frames away from Check and Decode, they could bear the same
+// number.
+class VehicleBus {
+ public:
+  VehicleBus();  // the built-in vehicle.dbc
+  // Any DBC with the same names. Throws std::runtime_error that names the message, signal or attribute that
+  // `database` lacks or that cannot carry ours (an extended id, more than 8 bytes, a CRC that is not byte 0, signals
+  // of one frame that overlap).
+  explicit VehicleBus(dbc::Database database);
+  ~VehicleBus();
+  VehicleBus(VehicleBus&&) noexcept;
+  VehicleBus& operator=(VehicleBus&&) noexcept;
+
+  // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value
+  // (kNotFinite, `out` is unchanged). Of `counter` the lower four bits are sent, 15 too, which no receiver
+  // accepts. Does not allocate.
+  [[nodiscard]] dbc::EncodeStatus Encode(const Message& message, std::uint8_t counter, RawMessage& out) const;
+
+  // Length, CRC and range of the counter; whether the counter follows its predecessor is the receiver's to
+  // judge.
+  [[nodiscard]] E2eCheck Check(std::uint32_t id, std::span<const std::byte> payload) const;
+
+  // False if a value that Decode would tell lies outside the range that the DBC gives it, or is not finite.
+  [[nodiscard]] bool InRange(std::uint32_t id, std::span<const std::byte> payload) const;
+
+  // Nothing if the id is not one of ours, the payload is too short, or a multiplexor or enumeration has no
+  // such value.
+  [[nodiscard]] std::optional<Message> Decode(std::uint32_t id, std::span<const std::byte> payload) const;
+
+  [[nodiscard]] const std::vector<MessageInfo>& messages() const;
+  [[nodiscard]] const MessageInfo* Find(std::uint32_t id) const;
+  [[nodiscard]] const MessageInfo* Find(const std::string& name) const;
+  [[nodiscard]] const dbc::Database& database() const;
+
+ private:
+  struct Binding;
+  std::unique_ptr<Binding> binding_;
+};
+
+// Text of the built-in dbc/vehicle.dbc.
+[[nodiscard]] std::string_view BuiltInDbc();
+
+}  // namespace bus

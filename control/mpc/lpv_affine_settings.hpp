@@ -1,0 +1,53 @@
+// What lpv-affine, and the NMPC with the same problem, are asked to do: horizon, weights, bounds, margins.
+#pragma once
+
+#include "control/qp/ocp_qp_solver.hpp"
+#include "control/vehicle/footprint.hpp"
+#include "control/vehicle/types.hpp"
+#include "control/vehicle/vehicle_parameters.hpp"
+
+namespace control {
+
+struct LpvAffineSettings {
+  int horizon = 40;   // N
+  double t_s = 0.05;  // [s], at most 0.06: DiscreteModel
+
+  State Q{2.0, 2.0, 1.0, 1.0, 20.0, 100.0};
+  double terminal = 5.0;    // P = terminal Q
+  Input R{5.0, 0.2};        // of u − u_ref
+  Input R_rate{2e3, 10.0};  // of Δu
+
+  Input u_min{-0.5, -6.0};
+  Input u_max{0.5, 2.0};
+  Input rate_max{0.03, 1.0};  // per step: 0.6 rad/s, 20 m/s³
+  double upsilon_max = 60.0;  // [m/s]
+
+  double mu = 0.7;              // friction coefficient that is reckoned with
+  double friction_share = 0.9;  // r = friction_share μ g
+  Footprint footprint{.front = 1.95, .rear = 2.30, .half_width = 0.9};
+  double obstacle_margin = 0.3;  // [m]
+  double road_margin = 0.4;      // [m]
+  double stop_gap = 2.0;         // before an obstacle that cannot be passed [m]
+
+  bool trust_region = true;
+  bool adapt_trust_region = true;  // its radii are scaled by how well the last prediction came true
+  Eigen::Vector4d trust_radius{1.0, 0.5, 0.1, 0.1};  // e of υ [m/s], ν [m/s], ψ [rad], δ [rad]
+  double trust_weight = 1e2;                         // of the slack, in radii²
+  // Of the slack ε of rows that hold states, [1/m] or [s²/m]: penalty (ε + ½ ε²), exact while the row's multiplier is
+  // below it.
+  double obstacle_penalty = 4e3;
+  double road_penalty = 2e3;
+  double state_penalty = 3e2;  // friction and speed
+  int iterations = 1;          // QPs in one step, while there is time
+  int first_iterations = 5;    // in a first step, which has no plan to start from, time or not
+  double converged = 1e-3;     // largest change of a scheduling variable, in radii, at which iterations end
+
+  QpSettings qp{.tolerance = 1e-6, .max_iterations = 80};
+};
+
+// Radius of the friction circle that a plan may use [m/s²].
+[[nodiscard]] inline double Grip(const LpvAffineSettings& settings) {
+  return settings.friction_share * settings.mu * kGravity;
+}
+
+}  // namespace control

@@ -1,0 +1,11 @@
+#include "control/qp/ocp_qp_solver_impl.hpp"
+
+namespace control {
+
+template struct OcpQpStage<8, 2>;
+template KktResidual EvaluateKkt(const OcpQp<8, 2>&, const OcpQpPoint<8, 2>&);
+template double EvaluateCost(const OcpQp<8, 2>&, const OcpQpPoint<8, 2>&);
+template bool ProvesInfeasible(const OcpQp<8, 2>&, const OcpQpPoint<8, 2>&);
+template class OcpQpSolver<8, 2>;
+
+}  // namespace control

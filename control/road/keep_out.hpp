@@ -1,0 +1,34 @@
+// Half-spaces that keep a vehicle with a footprint out of obstacles (paper, Section linobs, for a vehicle that is no
+// point): the tangent of the obstacle's ellipse on the side on which it is passed, about the predicted pose. That the
+// vehicle's rectangle lies beyond it is a row for each of its corners; the two nearest are enough, since the others
+// follow while the heading changes little.
+//
+// Where the vehicle is beside the obstacle, the tangent is the one parallel to the road; before and behind, it turns
+// with the ellipse, by at most 45°, so that a row never becomes a wall across the road.
+#pragma once
+
+#include <optional>
+
+#include "control/road/halfspace.hpp"
+#include "control/vehicle/footprint.hpp"
+#include "control/vehicle/types.hpp"
+
+namespace control {
+
+// The obstacle `time` [s] later, at constant velocity.
+[[nodiscard]] Obstacle Predict(Obstacle obstacle, double time);
+
+// Half the obstacle's width in the direction of the unit vector `direction` [m].
+[[nodiscard]] double SupportOf(const Obstacle& obstacle, const Eigen::Vector2d& direction);
+
+// The half-space that lets the vehicle at `z` pass on the given side (not kUnknown) of the obstacle, enlarged by
+// `margin` [m], on a road of heading `psi_road`. Nothing if the vehicle is further than `reach` [m] before or behind it.
+[[nodiscard]] std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide side,
+                                                        const State& z, double psi_road,
+                                                        const Footprint& footprint, double margin,
+                                                        double reach);
+
+// The half-space before the obstacle, across a road of heading `psi_road`: for who cannot pass.
+[[nodiscard]] HalfSpace HalfSpaceBefore(const Obstacle& obstacle, double psi_road, double margin);
+
+}  // namespace control

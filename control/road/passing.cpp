@@ -1,0 +1,166 @@
+#include "control/road/passing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "control/road/keep_out.hpp"
+#include "control/vehicle/geometry.hpp"
+
+namespace control {
+namespace {
+
+// What a gap costs, in metres that the vehicle must move sideways.
+constexpr double kBeyondGrip = 20.0;  // per multiple of the grip
+constexpr double kLacking = 50.0;     // per metre that it is too narrow
+constexpr double kChange = 2.0;    // per obstacle that would be passed on the other side than decided before
+constexpr double kTooMuch = 15.0;  // rather stop
+
+constexpr double kStoppedWithin = 0.1;  // [m]
+// By so much a gap may be too narrow if it was wide enough when it was chosen, and so much wider it has to be if the vehicle
+// stops for it already [m].
+constexpr double kKept = 0.15;
+constexpr double kReopened = 0.1;
+
+}  // namespace
+
+Passage& PassingPlanner::Kept(const Obstacle& obstacle) {
+  return kept_[static_cast<std::size_t>(obstacle.id) % kMostObstacles];
+}
+
+bool PassingPlanner::Allowed(const Obstacle& obstacle, Passage passage) const {
+  return obstacle.side == PassingSide::kUnknown ||
+         (obstacle.side == PassingSide::kLeft) == (passage == Passage::kLeft);
+}
+
+PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles, std::size_t index, double s,
+                                             double upsilon, PassingDecision& decision) const {
+  constexpr double kSlowest = 3.0;  // [m/s] by which the time until a meeting is reckoned
+  const Obstacle& obstacle = obstacles[index];
+  const RouteProjection place = course_->Project({obstacle.X, obstacle.Y}, s);
+  const double psi = course_->At(place.s).psi;
+  const Eigen::Vector2d along = Along(psi), left = LeftOf(psi);
+  const Eigen::Vector2d velocity(obstacle.velocity_X, obstacle.velocity_Y);
+  decision = {.passage = Passage::kIgnored,
+              .s = place.s,
+              .speed = along.dot(velocity),
+              .half_length = SupportOf(obstacle, along)};
+  const double behind = s - settings_.footprint.rear - settings_.margin;
+  const double gap = place.s - decision.half_length - s - settings_.footprint.front;
+  const auto time_at = [&](double speed) {
+    if (gap <= 0.0) return 0.0;
+    const double closing = std::max(speed, kSlowest) - decision.speed;
+    return closing > 0.0 ? gap / closing : std::numeric_limits<double>::infinity();
+  };
+  const bool passed = place.s + decision.half_length < behind && decision.speed <= upsilon;
+  // Who follows it at its own speed would never meet it, and catch up with it were it ignored.
+  const double wanted = std::max(upsilon, course_->At(s).speed);
+  if (passed || !(time_at(wanted) <= settings_.look_ahead)) return {.index = index, .time = -1.0};
+  const double time = std::min(time_at(upsilon), settings_.look_ahead);
+  return {.index = index,
+          .s = place.s + decision.speed * time,
+          .time = time,
+          .lateral = place.lateral + left.dot(velocity) * time,
+          .half_length = decision.half_length,
+          .half_width = SupportOf(obstacle, left)};
+}
+
+std::span<const PassingDecision> PassingPlanner::Decide(std::span<const Obstacle> obstacles, double s,
+                                                        double lateral, double upsilon) {
+  std::size_t count = 0;
+  const std::size_t known = std::min(obstacles.size(), kMostObstacles);
+  for (std::size_t k = 0; k < known; ++k) {
+    meetings_[count] = Meet(obstacles, k, s, upsilon, decisions_[k]);
+    if (meetings_[count].time >= 0.0) {
+      ++count;
+    } else {
+      Kept(obstacles[k]) = Passage::kIgnored;
+    }
+  }
+  const auto end = meetings_.begin() + static_cast<std::ptrdiff_t>(count);
+  std::sort(meetings_.begin(), end,
+            [](const Meeting& a, const Meeting& b) { return a.s - a.half_length < b.s - b.half_length; });
+
+  // Obstacles between which the vehicle does not fit along the road are met together.
+  const double length = settings_.footprint.front + settings_.footprint.rear + 2.0 * settings_.margin;
+  double from = lateral;
+  double time = 0.0;
+  double distance = 0.0;
+  for (auto first = meetings_.begin(); first != end;) {
+    double group_end = first->s + first->half_length;
+    auto last = first + 1;
+    for (; last != end && last->s - last->half_length < group_end + length; ++last) {
+      group_end = std::max(group_end, last->s + last->half_length);
+    }
+    distance = first->s - first->half_length - settings_.footprint.front - s;
+    from = DecideGroup(obstacles, {first, last}, from, std::max(first->time - time, 0.1), distance, upsilon);
+    time = first->time;
+    first = last;
+  }
+  return {decisions_.data(), known};
+}
+
+double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::span<Meeting> group, double from,
+                                   double time, double distance, double upsilon) {
+  std::sort(group.begin(), group.end(),
+            [](const Meeting& a, const Meeting& b) { return a.lateral < b.lateral; });
+  const double half_width = settings_.footprint.half_width;
+  const double keep = half_width + settings_.margin;
+  const double right_edge = course_->road().right + half_width + settings_.road_margin;
+  const double left_edge = course_->road().left - half_width - settings_.road_margin;
+  // 90 % of the grip stop it within the distance that is left; at a walking pace, anywhere.
+  const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, kStoppedWithin);
+  const double margins = settings_.margin + std::min(settings_.margin, settings_.road_margin);
+  // Gap g lies left of the first g obstacles and right of the others.
+  double best_cost = std::numeric_limits<double>::infinity();
+  double best_lateral = from;
+  std::size_t best = 0;
+  for (std::size_t g = 0; g <= group.size(); ++g) {
+    double lo = right_edge, hi = left_edge;
+    bool allowed = true, kept_all = true, stopped = false;
+    int changes = 0;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      const Meeting& m = group[k];
+      const Passage passage = k < g ? Passage::kLeft : Passage::kRight;
+      if (k < g) {
+        lo = std::max(lo, m.lateral + m.half_width + keep);
+      } else {
+        hi = std::min(hi, m.lateral - m.half_width - keep);
+      }
+      const Obstacle& obstacle = obstacles[m.index];
+      allowed = allowed && Allowed(obstacle, passage);
+      const Passage kept = Kept(obstacle);
+      kept_all = kept_all && kept == passage;
+      stopped = stopped || kept == Passage::kStop;
+      if ((kept == Passage::kLeft || kept == Passage::kRight) && kept != passage) ++changes;
+    }
+    // Who cannot stop any more goes through what the margins leave.
+    const double spare = can_stop ? (kept_all ? kKept : (stopped ? -kReopened : 0.0)) : margins;
+    if (!allowed || lo - hi > spare) continue;
+    const double lacking = std::max(lo - hi, 0.0);
+    if (lacking > 0.0) lo = hi = 0.5 * (lo + hi);
+    const double to = std::clamp(0.0, lo, hi);
+    const double shift = std::abs(std::clamp(from, lo, hi) - from);
+    // A lateral move of y within t needs an acceleration of 4 y/t².
+    const double needed = 4.0 * shift / (time * time) / settings_.grip;
+    const double cost = shift + std::abs(to) + kBeyondGrip * std::max(needed - 1.0, 0.0) +
+                        kLacking * lacking + kChange * changes;
+    if (cost < best_cost) {
+      best_cost = cost;
+      best_lateral = to;
+      best = g;
+    }
+  }
+  // What needs more than the tyres give is stopped for, if that is still possible; where nothing is left, the brake is what
+  // remains.
+  const bool none = !(best_cost < std::numeric_limits<double>::infinity());
+  const bool stop = none || (best_cost > kTooMuch && can_stop);
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    Passage& passage = decisions_[group[k].index].passage;
+    passage = stop ? Passage::kStop : (k < best ? Passage::kLeft : Passage::kRight);
+    Kept(obstacles[group[k].index]) = passage;
+  }
+  return best_lateral;
+}
+
+}  // namespace control

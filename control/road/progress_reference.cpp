@@ -1,0 +1,68 @@
+#include "control/road/progress_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/vehicle/steady_cornering.hpp"
+
+namespace control {
+namespace {
+
+// By so much the speed may differ from the profile before the reference comes towards it: noise of the measured speed
+// must not become an acceleration [m/s].
+constexpr double kSpeedTolerance = 0.5;
+// Of the comfortable deceleration: brakes that catch up with a profile.
+constexpr double kHarder = 1.5;
+// Slower than a line that moves, per metre beyond it [1/s].
+constexpr double kFallBack = 0.5;
+
+}  // namespace
+
+double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> stops) const {
+  double speed = course_->At(s).speed;
+  for (const StopLine& stop : stops) {
+    const double distance = stop.s + stop.speed * t - s;
+    const double over =
+        distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, course_->limits().deceleration);
+    speed = std::min(speed, std::max(stop.speed + over, 0.0));
+  }
+  return speed;
+}
+
+// Brakes that catch up with a profile are a little harder than comfortable; before a line that is near, as hard as it takes.
+double ProgressReference::Deceleration(double s, double upsilon, std::span<const StopLine> stops) const {
+  const SpeedLimits& limits = course_->limits();
+  double hardest = kHarder * limits.deceleration;
+  for (const StopLine& stop : stops) {
+    const double closing = std::max(upsilon - stop.speed, 0.0);
+    const double needed = closing * closing / (2.0 * std::max(stop.s - s, RoadProfile::kStopWithin));
+    hardest = std::max(hardest, std::min(needed, limits.emergency));
+  }
+  return hardest;
+}
+
+void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
+                             std::span<Input> u, std::span<double> s) const {
+  const double up = course_->limits().acceleration * t_s_;
+  const double down = Deceleration(s_0, upsilon, stops) * t_s_;
+
+  double place = s_0;
+  double speed = std::clamp(SpeedAt(place, 0.0, stops), std::max(upsilon - kSpeedTolerance, 0.0),
+                            std::max(upsilon, 0.0) + kSpeedTolerance);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const RoutePoint point = course_->At(place);
+    const double lever = SideslipPerCurvature(vehicle_, speed);
+    z[i] << point.X, point.Y, speed, point.curvature * speed * lever, point.psi - point.curvature * lever,
+        point.curvature * speed;
+    s[i] = place;
+    if (i == u.size()) break;
+    const double t = static_cast<double>(i + 1) * t_s_;
+    const double next =
+        std::clamp(SpeedAt(place + speed * t_s_, t, stops), std::max(speed - down, 0.0), speed + up);
+    u[i] << point.curvature * SteeringPerCurvature(vehicle_, speed), (next - speed) / t_s_;
+    place += 0.5 * (speed + next) * t_s_;
+    speed = next;
+  }
+}
+
+}  // namespace control

@@ -1,0 +1,311 @@
+#include "control/road/route.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+namespace control {
+namespace {
+
+using Eigen::Vector2d;
+
+// Eight-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun, table 25.4); exact to order 15.
+constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                       0.9602898564975363};
+constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                         0.1012285362903763};
+
+// Integral of f from 0 to `to`.
+template <typename F>
+auto Integrate(double to, const F& f) {
+  const double half = 0.5 * to;
+  using Value = std::decay_t<decltype(f(to))>;
+  const auto pair = [&](std::size_t i) -> Value {
+    return kWeights[i] * (f(half * (1.0 - kNodes[i])) + f(half * (1.0 + kNodes[i])));
+  };
+  return Value(half * (pair(0) + pair(1) + pair(2) + pair(3)));
+}
+
+// Curvature linear in arc length; its heading changes by less than kLargestTurn, so one quadrature is exact.
+constexpr double kLargestTurn = 0.5;
+struct LinearCurvature {
+  double curvature;
+  double slope;
+
+  RoutePoint At(const RoutePoint& start, double s) const {
+    const auto heading = [&](double l) { return start.psi + l * (curvature + 0.5 * slope * l); };
+    const Vector2d moved =
+        Integrate(s, [&](double l) { return Vector2d(std::cos(heading(l)), std::sin(heading(l))); });
+    return {start.X + moved.x(), start.Y + moved.y(), heading(s), curvature + slope * s, 0.0};
+  }
+};
+
+// Cubic x(t), y(t), t in [0, t_end].
+struct Cubic {
+  std::array<Vector2d, 4> c;
+  double t_end;
+  double length;
+
+  Vector2d Velocity(double t) const { return c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]); }
+  double ArcLength(double t) const {
+    return Integrate(t, [this](double tau) { return Velocity(tau).norm(); });
+  }
+  double ParameterAt(double s) const {
+    double t = t_end * s / length;
+    for (int i = 0; i < 20; ++i) {
+      const double step = (s - ArcLength(t)) / std::max(Velocity(t).norm(), 1e-6);
+      t = std::clamp(t + step, 0.0, t_end);
+      if (std::abs(step) < 1e-13 * t_end) break;
+    }
+    return t;
+  }
+  RoutePoint At(const RoutePoint& start, double s) const {
+    const double t = ParameterAt(s);
+    const Vector2d p = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    const Vector2d v = Velocity(t);
+    const Vector2d a = 2.0 * c[2] + 6.0 * t * c[3];
+    const double curvature = (v.x() * a.y() - v.y() * a.x()) / std::pow(v.squaredNorm(), 1.5);
+    return {p.x(), p.y(), start.psi + WrapAngle(std::atan2(v.y(), v.x()) - start.psi), curvature, 0.0};
+  }
+};
+
+struct Segment {
+  double s = 0.0;  // of its start
+  double length = 0.0;
+  RoutePoint start;
+  std::variant<LinearCurvature, Cubic> shape;
+
+  RoutePoint At(double ds) const {
+    return std::visit([&](const auto& curve) { return curve.At(start, ds); }, shape);
+  }
+};
+
+// Target speed v = v_from + slope s', s' from 0 to length: s'(t) = v_from (e^{slope t} - 1) / slope.
+struct SpeedRamp {
+  double s;  // of its start
+  double t;
+  double length;
+  double from;
+  double to;
+
+  double Slope() const { return (to - from) / length; }
+  double Duration() const {
+    const double ratio = (to - from) / from;
+    return length / from * (std::abs(ratio) < 1e-12 ? 1.0 : std::log1p(ratio) / ratio);
+  }
+  double DistanceAfter(double time) const {
+    const double x = Slope() * time;
+    return from * time * (std::abs(x) < 1e-12 ? 1.0 : std::expm1(x) / x);
+  }
+};
+
+// Last element whose `value` is not above x; the first one if there is none.
+template <typename T>
+const T& LastNotAbove(const std::vector<T>& list, double T::*value, double x) {
+  const auto next = std::ranges::upper_bound(list, x, {}, value);
+  return next == list.begin() ? list.front() : *(next - 1);
+}
+
+// Second derivatives of the natural cubic spline at its knots (tridiagonal system, Thomas algorithm).
+std::vector<Vector2d> SplineCurvature(std::span<const Vector2d> p, std::span<const double> h) {
+  const std::size_t n = p.size();
+  std::vector<Vector2d> second(n, Vector2d::Zero());
+  std::vector<double> upper(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double pivot = 2.0 * (h[i - 1] + h[i]) - h[i - 1] * upper[i - 1];
+    upper[i] = h[i] / pivot;
+    const Vector2d rhs = 6.0 * ((p[i + 1] - p[i]) / h[i] - (p[i] - p[i - 1]) / h[i - 1]);
+    second[i] = (rhs - h[i - 1] * second[i - 1]) / pivot;
+  }
+  for (std::size_t i = n - 1; i-- > 1;) second[i] -= upper[i] * second[i + 1];
+  return second;
+}
+
+void Require(bool holds, const std::string& text) {
+  if (!holds) throw std::invalid_argument(text);
+}
+
+constexpr double kSampleSpacing = 1.0;  // of the coarse search for the nearest point [m]
+constexpr double kHintWindow = 25.0;    // [m]
+
+}  // namespace
+
+struct Route::Geometry {
+  std::vector<Segment> segments;
+  std::vector<SpeedRamp> ramps;
+  std::vector<Vector2d> samples;  // spaced evenly from start to end
+  double spacing = 0.0;
+  double length = 0.0;
+  RoutePoint end;
+
+  void Append(double segment_length, const RoutePoint& start,
+              const std::variant<LinearCurvature, Cubic>& shape) {
+    segments.push_back({length, segment_length, start, shape});
+    length += segment_length;
+    end = segments.back().At(segment_length);
+  }
+  void AppendRamp(double ramp_length, double from, double to) {
+    const double t = ramps.empty() ? 0.0 : ramps.back().t + ramps.back().Duration();
+    const double s = ramps.empty() ? 0.0 : ramps.back().s + ramps.back().length;
+    ramps.push_back({s, t, ramp_length, from, to});
+  }
+  void Sample() {
+    const int intervals = std::max(1, static_cast<int>(std::ceil(length / kSampleSpacing)));
+    spacing = length / intervals;
+    for (int i = 0; i <= intervals; ++i) {
+      const RoutePoint point = At(i * spacing);
+      samples.emplace_back(point.X, point.Y);
+    }
+  }
+  RoutePoint At(double s) const {
+    RoutePoint point;
+    const double inside = std::clamp(s, 0.0, length);
+    if (inside == length) {
+      point = end;
+    } else {
+      const Segment& segment = LastNotAbove(segments, &Segment::s, inside);
+      point = segment.At(std::min(inside - segment.s, segment.length));
+    }
+    if (s != inside) {
+      point.X += (s - inside) * std::cos(point.psi);
+      point.Y += (s - inside) * std::sin(point.psi);
+      point.curvature = 0.0;
+    }
+    const SpeedRamp& ramp = LastNotAbove(ramps, &SpeedRamp::s, inside);
+    point.speed = ramp.from + ramp.Slope() * std::min(inside - ramp.s, ramp.length);
+    return point;
+  }
+};
+
+Route::Route(std::shared_ptr<const Geometry> geometry) : geometry_(std::move(geometry)) {}
+
+Route Route::FromPieces(const RouteStart& start, double speed, std::span<const RoutePiece> pieces) {
+  Require(!pieces.empty(), "no pieces");
+  Require(std::isfinite(speed) && speed > 0.0, "speed must be above 0");
+  Require(std::isfinite(start.X) && std::isfinite(start.Y) && std::isfinite(start.psi),
+          "start is not finite");
+  auto geometry = std::make_shared<Geometry>();
+  geometry->end = {start.X, start.Y, start.psi, 0.0, 0.0};
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const RoutePiece& piece = pieces[i];
+    const double speed_to = piece.speed.value_or(speed);
+    const std::string name = "piece " + std::to_string(i) + ": ";
+    Require(std::isfinite(piece.length) && piece.length > 0.0, name + "length must be above 0");
+    Require(std::isfinite(piece.curvature_from) && std::isfinite(piece.curvature_to),
+            name + "curvature is not finite");
+    Require(std::isfinite(speed_to) && speed_to > 0.0, name + "speed must be above 0");
+    const double turn = piece.length * std::max(std::abs(piece.curvature_from), std::abs(piece.curvature_to));
+    Require(turn < 1e4, name + "turns too often");
+    const double slope = (piece.curvature_to - piece.curvature_from) / piece.length;
+    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kLargestTurn)));
+    for (int part = 0; part < parts; ++part) {
+      const double curvature = piece.curvature_from + slope * (piece.length * part / parts);
+      geometry->Append(piece.length / parts, geometry->end, LinearCurvature{curvature, slope});
+    }
+    geometry->AppendRamp(piece.length, speed, speed_to);
+    speed = speed_to;
+  }
+  geometry->Sample();
+  return Route(std::move(geometry));
+}
+
+Route Route::ThroughWaypoints(std::span<const Vector2d> waypoints, double speed) {
+  Require(waypoints.size() >= 2, "fewer than two waypoints");
+  Require(std::isfinite(speed) && speed > 0.0, "speed must be above 0");
+  Require(waypoints[0].allFinite(), "waypoint 0 is not finite");
+  std::vector<double> h;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    h.push_back((waypoints[i] - waypoints[i - 1]).norm());
+    Require(std::isfinite(h.back()), "waypoint " + std::to_string(i) + " is not finite");
+    Require(h.back() > 0.0, "waypoint " + std::to_string(i) + " repeats its predecessor");
+  }
+  const std::vector<Vector2d> second = SplineCurvature(waypoints, h);
+  auto geometry = std::make_shared<Geometry>();
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    Cubic cubic{{waypoints[i],
+                 (waypoints[i + 1] - waypoints[i]) / h[i] - h[i] / 6.0 * (2.0 * second[i] + second[i + 1]),
+                 0.5 * second[i], (second[i + 1] - second[i]) / (6.0 * h[i])},
+                h[i],
+                0.0};
+    cubic.length = cubic.ArcLength(h[i]);
+    RoutePoint start = geometry->end;
+    if (i == 0) start.psi = std::atan2(cubic.c[1].y(), cubic.c[1].x());
+    geometry->Append(cubic.length, start, cubic);
+  }
+  geometry->AppendRamp(geometry->length, speed, speed);
+  geometry->Sample();
+  return Route(std::move(geometry));
+}
+
+double Route::length() const {
+  return geometry_->length;
+}
+
+double Route::duration() const {
+  return geometry_->ramps.back().t + geometry_->ramps.back().Duration();
+}
+
+RoutePoint Route::At(double s) const {
+  return geometry_->At(s);
+}
+
+double Route::ArcLengthAt(double t) const {
+  const SpeedRamp& first = geometry_->ramps.front();
+  if (t <= 0.0) return first.from * t;
+  const double over = t - duration();
+  if (over >= 0.0) return length() + over * geometry_->ramps.back().to;
+  const SpeedRamp& ramp = LastNotAbove(geometry_->ramps, &SpeedRamp::t, t);
+  return ramp.s + ramp.DistanceAfter(t - ramp.t);
+}
+
+RouteProjection Route::Project(const Vector2d& position, std::optional<double> hint) const {
+  const std::vector<Vector2d>& samples = geometry_->samples;
+  const double spacing = geometry_->spacing;
+  const int last = static_cast<int>(samples.size()) - 1;
+  const auto index = [&](double s) {
+    return static_cast<int>(std::clamp(s / spacing, 0.0, static_cast<double>(last)));
+  };
+  const int from = hint ? index(*hint - kHintWindow) : 0;
+  const int to = hint ? index(*hint + kHintWindow) : last;
+  const auto nearest = std::min_element(samples.begin() + from, samples.begin() + to + 1,
+                                        [&](const Vector2d& a, const Vector2d& b) {
+                                          return (a - position).squaredNorm() < (b - position).squaredNorm();
+                                        });
+
+  // The distance along the tangent falls through zero at the nearest point: Newton's method, kept in a
+  // bracket.
+  const int i = static_cast<int>(nearest - samples.begin());
+  constexpr double kFar = 1e6;
+  double low = i == 0 ? -kFar : (i - 1) * spacing;
+  double high = i == last ? length() + kFar : (i + 1) * spacing;
+  RouteProjection result{i * spacing, 0.0};
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const RoutePoint point = At(result.s);
+    const Vector2d tangent(std::cos(point.psi), std::sin(point.psi));
+    const Vector2d offset = position - Vector2d(point.X, point.Y);
+    const double ahead = offset.dot(tangent);
+    result.lateral = tangent.x() * offset.y() - tangent.y() * offset.x();
+    if (std::abs(ahead) < 1e-10) break;
+    (ahead > 0.0 ? low : high) = result.s;
+    const double newton = result.s + ahead / std::max(0.1, 1.0 - point.curvature * result.lateral);
+    result.s = newton > low && newton < high ? newton : 0.5 * (low + high);
+  }
+  return result;
+}
+
+std::vector<Vector2d> SampleRoute(const Route& route, double t_s) {
+  Require(std::isfinite(t_s) && t_s > 0.0, "t_s must be above 0");
+  const auto steps = static_cast<std::size_t>(std::floor(route.duration() / t_s * (1.0 + 1e-12)));
+  std::vector<Vector2d> points;
+  points.reserve(steps + 1);
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const RoutePoint point = route.At(route.ArcLengthAt(static_cast<double>(k) * t_s));
+    points.emplace_back(point.X, point.Y);
+  }
+  return points;
+}
+
+}  // namespace control

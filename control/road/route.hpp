@@ -1,0 +1,83 @@
+// A road's reference path in the plane with a target speed, by arc length s [m], and the time-indexed points
+// (X, Y) that the controller is given (paper, Section NMPC: "only the (X_ref, Y_ref) values of the reference
+// are available").
+//
+// A path is either a chain of pieces whose curvature is linear in s (straight, arc, clothoid; positive
+// curvature turns left), integrated to round-off, or a natural cubic spline over chord length through
+// waypoints. Before its start and after its end a route goes on straight.
+//
+// Example:
+//   const auto route = control::Route::FromPieces({.X = 0, .Y = 0, .psi = 0}, 12.0, pieces);
+//   const control::RoutePoint point = route.At(35.0);
+//   const control::RouteProjection place = route.Project({X, Y}, place_before.s);
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "control/vehicle/types.hpp"
+
+namespace control {
+
+struct RouteStart {
+  double X = 0.0;    // [m]
+  double Y = 0.0;    // [m]
+  double psi = 0.0;  // heading [rad]
+};
+
+struct RoutePiece {
+  double length = 0.0;               // > 0 [m]
+  double curvature_from = 0.0;       // [1/m]
+  double curvature_to = 0.0;         // [1/m]
+  std::optional<double> speed = {};  // target speed at its end, > 0 [m/s]; none: that of its start
+};
+
+struct RoutePoint {
+  double X = 0.0;
+  double Y = 0.0;
+  double psi = 0.0;        // continuous along the route, not wrapped [rad]
+  double curvature = 0.0;  // [1/m]
+  double speed = 0.0;      // target speed [m/s]
+};
+
+struct RouteProjection {
+  double s = 0.0;  // arc length of the nearest point [m]; below 0 or past length() on the straight extensions
+  double lateral = 0.0;  // signed distance to it, left positive [m]
+};
+
+class Route {
+ public:
+  // The target speed is `speed` at the start and goes linearly over s to each piece's own. Throws
+  // std::invalid_argument that names the piece if there is none, or a value is not finite or not in the range
+  // above.
+  [[nodiscard]] static Route FromPieces(const RouteStart& start, double speed,
+                                        std::span<const RoutePiece> pieces);
+  // Throws std::invalid_argument that names the waypoint if there are fewer than two, two in a row are the
+  // same, or a value is not finite; and if speed <= 0.
+  [[nodiscard]] static Route ThroughWaypoints(std::span<const Eigen::Vector2d> waypoints, double speed);
+
+  [[nodiscard]] double length() const;    // [m]
+  [[nodiscard]] double duration() const;  // at the target speed [s]
+
+  [[nodiscard]] RoutePoint At(double s) const;
+  // Where a vehicle is that started at s = 0 at t = 0 and keeps the target speed.
+  [[nodiscard]] double ArcLengthAt(double t) const;
+
+  // The point of the route nearest to `position`: nearest within 25 m of arc length of `hint` if that is
+  // given, of the whole route otherwise.
+  [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position,
+                                        std::optional<double> hint = {}) const;
+
+ private:
+  struct Geometry;
+  explicit Route(std::shared_ptr<const Geometry> geometry);
+  std::shared_ptr<const Geometry> geometry_;  // immutable
+};
+
+// Points that a vehicle on the route at the target speed reaches at 0, t_s, 2 t_s, ... up to the end of the
+// route.
+[[nodiscard]] std::vector<Eigen::Vector2d> SampleRoute(const Route& route, double t_s);
+
+}  // namespace control

@@ -1,0 +1,45 @@
+// The vehicle at any speed down to standstill, ż = f(z, u): the dynamic model (vehicle_model.hpp) when it is fast, the
+// kinematic one when it is slow, where slip angles have no meaning and their dynamics no time constant that a sampling
+// time could follow. Both share Ẋ, Ẏ, υ̇, ψ̇; between υ_1 and υ_2 the others go over smoothly:
+//
+//   [ν̇ ω̇] = w [ν̇ ω̇]_dynamic + (1 − w) [ν̇ ω̇]_kinematic        w = 3 s² − 2 s³, s = (υ − υ_1)/(υ_2 − υ_1) within 0..1
+//
+//   ω̇_kinematic = (υ tan δ / (l_f + l_r) − ω) / τ             towards a roll without slip
+//   ν̇_kinematic = (l_r υ tan δ / (l_f + l_r) − ν) / τ
+#pragma once
+
+#include "control/vehicle/linear_model.hpp"
+#include "control/vehicle/single_track.hpp"
+#include "control/vehicle/vehicle_parameters.hpp"
+
+namespace control {
+
+class BlendedModel {
+ public:
+  static constexpr double kUpsilon1 = 4.0;  // up to it kinematic [m/s]
+  static constexpr double kUpsilon2 = 8.0;  // from it on dynamic [m/s]
+  static constexpr double kTau = 0.1;       // [s]
+
+  explicit BlendedModel(const VehicleParameters& parameters);
+
+  [[nodiscard]] State Derivative(const State& z, const Input& u) const { return Derivative(z, u, {z, u}); }
+  [[nodiscard]] State Derivative(const State& z, const Input& u, const Angles& angles) const;
+  // ∂f/∂z and ∂f/∂u.
+  [[nodiscard]] LinearModel Jacobian(const State& z, const Input& u) const {
+    return Linearise(z, u, {z, u}).jacobian;
+  }
+
+  struct Linearisation {
+    State f;
+    LinearModel jacobian;
+  };
+  [[nodiscard]] Linearisation Linearise(const State& z, const Input& u, const Angles& angles) const;
+
+ private:
+  [[nodiscard]] State Blend(const State& z, const Angles& angles, const State& dynamic, double w) const;
+
+  SingleTrackModel dynamic_;
+  double wheelbase_, l_r_;
+};
+
+}  // namespace control

@@ -1,0 +1,63 @@
+#include "loop/assembly.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "config/route_file.hpp"
+#include "config/text_file.hpp"
+#include "control/mpc/lpv_affine_mpc.hpp"
+#include "control/mpc/lpv_mpc.hpp"
+#include "dbc/parser.hpp"
+
+namespace loop {
+
+std::unique_ptr<control::Controller> MakeController(const Config& config,
+                                                    const control::RoadProfile& course) {
+  switch (config.controller) {
+    case ControllerKind::kLpvAffine:
+      return std::make_unique<control::LpvAffineMpc>(config.vehicle, course, config.affine);
+    case ControllerKind::kLpv:
+    case ControllerKind::kLpvStandard:
+      return std::make_unique<control::LpvMpc>(config.vehicle, config.mpc);
+    case ControllerKind::kNmpc:
+    case ControllerKind::kNmpcAffine:
+      break;
+  }
+  // Ipopt allocates and has no bound on its time.
+  throw std::runtime_error(
+      std::string("controller ") + ControllerName(config.controller) +
+      " is for lpvmpc alone: no daemon drives by it; take lpv-affine, lpv or lpv-standard");
+}
+
+bus::VehicleBus OpenBus(const Config& config) {
+  if (config.dbc.empty()) {
+    return {};
+  }
+  return bus::VehicleBus(dbc::Parse(config::ReadTextFile(config.dbc), config.dbc.string()));
+}
+
+Assembly::Assembly(const Config& config, std::function<base::Time()> stopwatch)
+    : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), MakeController) {}
+
+Assembly::Assembly(const Config& config, const config::RouteFile& route,
+                   std::function<base::Time()> stopwatch, const ControllerMaker& make)
+    : bus_(OpenBus(config)),
+      reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
+      road_(route.road),
+      course_(route.route, route.road, config.speed),
+      controller_(make(config, course_)),
+      check_({.vehicle = config.vehicle,
+              .footprint = config.affine.footprint,
+              .mu = config.affine.mu,
+              .t_s = config.affine.t_s},
+             course_),
+      // The paper's controllers plan for a point with a coarser model: their plans would not pass.
+      loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch),
+            IsAffine(config.controller) ? &check_ : nullptr) {
+  if (reference_.size() <= HorizonOf(config)) {
+    throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");
+  }
+}
+
+}  // namespace loop

@@ -1,0 +1,54 @@
+// Gathers the three frames of each obstacle and takes over all obstacles of a cycle at once, when the list
+// that ends the cycle counts exactly the objects that were told in full. Otherwise the obstacles known before
+// stay.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/time.hpp"
+#include "bus/messages.hpp"
+#include "control/vehicle/types.hpp"
+
+namespace loop {
+
+class ObstacleAssembler {
+ public:
+  static constexpr std::size_t kMaxObstacles = 64;
+
+  ObstacleAssembler();
+
+  // A part with a value that is not finite, or a semi-axis that is not positive, does not count: its object
+  // stays incomplete.
+  void Update(const bus::ObstaclePosition& position);
+  void Update(const bus::ObstacleShape& shape);
+  void Update(const bus::ObstacleMotion& motion);
+  // Ends a cycle. True: `obstacles()` are those told since the list before. False: a part was missing, or an
+  // object too many or too few; `obstacles()` are as they were.
+  [[nodiscard]] bool Update(const bus::ObstacleList& list, base::Time time);
+
+  // In the order in which they were first told.
+  [[nodiscard]] std::span<const control::Obstacle> obstacles() const { return committed_; }
+  // Time since the last list that was taken over; Time::max() before the first.
+  [[nodiscard]] base::Time Age(base::Time now) const { return known_ ? now - last_ : base::Time::max(); }
+  [[nodiscard]] std::uint64_t rejected() const { return rejected_; }  // lists
+
+ private:
+  struct Pending {
+    control::Obstacle obstacle;
+    unsigned parts = 0;
+  };
+
+  [[nodiscard]] control::Obstacle* Part(std::uint8_t id, unsigned part);
+
+  std::vector<Pending> pending_;
+  bool overflow_ = false;
+  std::vector<control::Obstacle> committed_;
+  bool known_ = false;
+  base::Time last_{};
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace loop

@@ -1,0 +1,57 @@
+#include "loop/plan_verdict.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace loop {
+namespace {
+
+// Of a plan that was solved: every value of it is a number.
+bool Acceptable(const control::Plan& plan, int horizon) {
+  const auto n = static_cast<std::size_t>(horizon);
+  return plan.u.size() == n && plan.z.size() == n + 1 &&
+         std::ranges::all_of(plan.u, [](const control::Input& u) { return u.allFinite(); }) &&
+         std::ranges::all_of(plan.z, [](const control::State& z) { return z.allFinite(); });
+}
+
+}  // namespace
+
+bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
+  switch (plan.status) {
+    case control::SolverStatus::kSolved:
+      return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
+    case control::SolverStatus::kInfeasible:
+      return bus::FaultCode::kSolverInfeasible;
+    case control::SolverStatus::kIterationLimit:
+      return bus::FaultCode::kSolverIterationLimit;
+    case control::SolverStatus::kNumericalFailure:
+      break;
+  }
+  return bus::FaultCode::kSolverNumericalFailure;
+}
+
+CheckVerdict CheckPlan(control::PlanCheck& check, const control::State& z,
+                       std::span<const control::Input> plan, std::span<const control::Input> last,
+                       std::span<const control::Obstacle> obstacles) {
+  CheckVerdict verdict{.violation = check.Judge(z, plan, obstacles), .ruled_out = false};
+  if (!verdict.violation) return verdict;
+  const auto of_last = check.Judge(z, last, obstacles);
+  verdict.ruled_out = !of_last || of_last->constraint.step > verdict.violation->constraint.step;
+  return verdict;
+}
+
+bus::SolverStatus ToBus(control::SolverStatus status) {
+  switch (status) {
+    case control::SolverStatus::kSolved:
+      return bus::SolverStatus::kSolved;
+    case control::SolverStatus::kInfeasible:
+      return bus::SolverStatus::kInfeasible;
+    case control::SolverStatus::kIterationLimit:
+      return bus::SolverStatus::kIterationLimit;
+    case control::SolverStatus::kNumericalFailure:
+      break;
+  }
+  return bus::SolverStatus::kNumericalFailure;
+}
+
+}  // namespace loop

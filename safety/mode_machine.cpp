@@ -1,0 +1,226 @@
+#include "safety/mode_machine.hpp"
+
+#include <algorithm>
+
+namespace safety {
+namespace {
+
+// What cannot be done without.
+std::optional<Cause> HardFault(const ModeInputs& inputs) {
+  const bool hard = !inputs.bus_up || !inputs.state_fresh;
+  if (hard) return InputFault(inputs);
+  if (inputs.route_left <= 0) return Cause::kRouteEnd;
+  if (!inputs.plan_usable) return Cause::kPlanExhausted;
+  return std::nullopt;
+}
+
+Cause SilenceCause(const ModeInputs& inputs) {
+  return inputs.bus_up ? Cause::kSilent : Cause::kBusDown;
+}
+
+int CountHealthy(const ModeState& state, const ModeInputs& inputs) {
+  return inputs.Healthy() ? std::min(state.healthy_cycles + 1, kHealthyCycles) : 0;
+}
+
+}  // namespace
+
+ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSettings& settings) {
+  ModeState next = state;
+  next.healthy_cycles = CountHealthy(state, inputs);
+  const bool withdrawn = inputs.request_fresh && (inputs.released || !inputs.engage);
+  const auto enter = [&next](bus::Mode mode, Cause cause) {
+    next.previous = next.mode;
+    next.mode = mode;
+    next.cause = cause;
+    next.armed = false;
+  };
+
+  if (inputs.internal_error) {
+    if (state.mode != bus::Mode::kFault) {
+      enter(bus::Mode::kFault, Cause::kInternalError);
+    }
+    return next;
+  }
+  switch (state.mode) {
+    case bus::Mode::kInit:
+      if (next.healthy_cycles == kHealthyCycles) {
+        enter(bus::Mode::kStandby, Cause::kInputsHealthy);
+      }
+      break;
+    case bus::Mode::kStandby:
+      if (EngagementRequested(state, inputs) && inputs.plan_usable) {
+        enter(bus::Mode::kActive, Cause::kEngaged);
+      } else {
+        const bool edge_waits = !inputs.state_new && !inputs.override_seen && RisingEdge(state, inputs);
+        next.armed = inputs.request_fresh && (!inputs.engage || edge_waits);
+      }
+      break;
+    case bus::Mode::kActive:
+    case bus::Mode::kDegraded:
+      if (inputs.override_seen) {
+        enter(bus::Mode::kStandby, Cause::kOverride);
+      } else if (withdrawn) {
+        enter(bus::Mode::kStandby, Cause::kReleased);
+      } else if (inputs.silent) {
+        enter(bus::Mode::kFault, SilenceCause(inputs));
+      } else if (const auto hard = HardFault(inputs)) {
+        enter(bus::Mode::kSafeStop, *hard);
+      } else if (const auto soft = PresentFault(inputs)) {
+        const int left = state.mode == bus::Mode::kDegraded ? state.degraded_left : settings.degraded_cycles;
+        if (left == 0) {
+          enter(bus::Mode::kSafeStop, *soft);
+        } else if (state.mode == bus::Mode::kActive) {
+          enter(bus::Mode::kDegraded, *soft);
+        }
+        next.degraded_left = std::max(left - 1, 0);
+      } else if (state.mode == bus::Mode::kDegraded) {
+        enter(bus::Mode::kActive, Cause::kRecovered);
+      }
+      break;
+    case bus::Mode::kSafeStop:
+      if (inputs.override_seen) {
+        enter(bus::Mode::kStandby, Cause::kOverride);
+      } else if (withdrawn) {
+        enter(bus::Mode::kStandby, Cause::kReleased);
+      } else if (inputs.standstill) {
+        enter(bus::Mode::kStandby, Cause::kStandstill);
+      } else if (inputs.silent) {
+        enter(bus::Mode::kFault, SilenceCause(inputs));
+      }
+      break;
+    case bus::Mode::kFault:
+      if (inputs.Healthy() && !inputs.engage) {
+        enter(bus::Mode::kStandby, Cause::kRecovered);
+      }
+      break;
+  }
+  return next;
+}
+
+bool RisingEdge(const ModeState& state, const ModeInputs& inputs) {
+  return inputs.engage && (state.armed || inputs.released);
+}
+
+bool EngagementRequested(const ModeState& state, const ModeInputs& inputs) {
+  return state.mode == bus::Mode::kStandby && RisingEdge(state, inputs) && inputs.state_new &&
+         CountHealthy(state, inputs) == kHealthyCycles && inputs.near_route && inputs.route_left > 0 &&
+         !inputs.override_seen;
+}
+
+std::optional<Cause> InputFault(const ModeInputs& inputs) {
+  if (!inputs.bus_up) return Cause::kBusDown;
+  if (!inputs.state_fresh) return inputs.state_rejected ? Cause::kStateInvalid : Cause::kStateStale;
+  if (!inputs.obstacles_fresh) return Cause::kObstaclesStale;
+  if (!inputs.request_fresh) return Cause::kDriverRequestStale;
+  return std::nullopt;
+}
+
+std::optional<Cause> PresentFault(const ModeInputs& inputs) {
+  const auto fault = InputFault(inputs);
+  return fault ? fault : inputs.plan_fault;
+}
+
+bus::FaultCode FaultOf(Cause cause) {
+  switch (cause) {
+    case Cause::kBusDown:
+      return bus::FaultCode::kBusDown;
+    case Cause::kStateStale:
+      return bus::FaultCode::kStateStale;
+    case Cause::kStateInvalid:
+      return bus::FaultCode::kStateInvalid;
+    case Cause::kObstaclesStale:
+      return bus::FaultCode::kObstaclesStale;
+    case Cause::kDriverRequestStale:
+      return bus::FaultCode::kDriverRequestStale;
+    case Cause::kRouteEnd:
+      return bus::FaultCode::kRouteEnd;
+    case Cause::kPlanExhausted:
+      return bus::FaultCode::kPlanExhausted;
+    case Cause::kStateLate:
+      return bus::FaultCode::kStateLate;
+    case Cause::kSolverFailed:
+      return bus::FaultCode::kSolverNumericalFailure;
+    case Cause::kDeadlineMissed:
+      return bus::FaultCode::kDeadlineMissed;
+    case Cause::kPlanRejected:
+      return bus::FaultCode::kPlanRejected;
+    case Cause::kSilent:
+    case Cause::kInternalError:
+      return bus::FaultCode::kInternalError;
+    case Cause::kStart:
+    case Cause::kInputsHealthy:
+    case Cause::kEngaged:
+    case Cause::kReleased:
+    case Cause::kOverride:
+    case Cause::kStandstill:
+    case Cause::kRecovered:
+      break;
+  }
+  return bus::FaultCode::kNone;
+}
+
+std::string_view Name(Cause cause) {
+  switch (cause) {
+    case Cause::kStart:
+      return "start";
+    case Cause::kInputsHealthy:
+      return "inputs healthy";
+    case Cause::kEngaged:
+      return "engaged";
+    case Cause::kReleased:
+      return "request withdrawn";
+    case Cause::kOverride:
+      return "driver override";
+    case Cause::kStandstill:
+      return "standstill";
+    case Cause::kRecovered:
+      return "recovered";
+    case Cause::kBusDown:
+      return "bus down";
+    case Cause::kStateStale:
+      return "vehicle state stale";
+    case Cause::kStateInvalid:
+      return "vehicle state refused";
+    case Cause::kObstaclesStale:
+      return "obstacles stale";
+    case Cause::kDriverRequestStale:
+      return "driver request stale";
+    case Cause::kRouteEnd:
+      return "end of route";
+    case Cause::kPlanExhausted:
+      return "plan exhausted";
+    case Cause::kSilent:
+      return "no command sent for too long";
+    case Cause::kInternalError:
+      return "internal error";
+    case Cause::kStateLate:
+      return "no new vehicle state";
+    case Cause::kSolverFailed:
+      return "problem not solved";
+    case Cause::kDeadlineMissed:
+      return "deadline missed";
+    case Cause::kPlanRejected:
+      return "plan rejected";
+  }
+  return "?";
+}
+
+std::string_view Name(bus::Mode mode) {
+  switch (mode) {
+    case bus::Mode::kInit:
+      return "Init";
+    case bus::Mode::kStandby:
+      return "Standby";
+    case bus::Mode::kActive:
+      return "Active";
+    case bus::Mode::kDegraded:
+      return "Degraded";
+    case bus::Mode::kSafeStop:
+      return "SafeStop";
+    case bus::Mode::kFault:
+      return "Fault";
+  }
+  return "?";
+}
+
+}  // namespace safety

@@ -1,0 +1,141 @@
+// Nothing in the control step takes memory from the heap: neither by operator new (tests/support/allocations.hpp) nor
+// by malloc and its kin, which Eigen calls for a matrix of dynamic size and which the linker's --wrap leads here.
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+
+#include "control/mpc/lpv_affine_mpc.hpp"
+#include "control/mpc/lpv_mpc.hpp"
+#include "gtest/gtest.h"
+#include "tests/control/mpc/closed_loop.hpp"
+#include "tests/control/mpc/course_loop.hpp"
+#include "tests/support/allocations.hpp"
+#include "tools/bench/qp_instance.hpp"
+
+static std::size_t c_allocations = 0;
+
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t count, std::size_t size);
+void* __real_realloc(void* memory, std::size_t size);
+
+void* __wrap_malloc(std::size_t size) {
+  ++c_allocations;
+  return __real_malloc(size);
+}
+void* __wrap_calloc(std::size_t count, std::size_t size) {
+  ++c_allocations;
+  return __real_calloc(count, size);
+}
+void* __wrap_realloc(void* memory, std::size_t size) {
+  ++c_allocations;
+  return __real_realloc(memory, size);
+}
+}
+
+namespace control {
+namespace {
+
+using testing::ClosedLoop;
+
+std::size_t Taken() {
+  return test_support::Allocations() + c_allocations;
+}
+
+TEST(Allocations, AreCounted) {
+  std::size_t before = Taken();
+  const auto number = std::make_unique<int>(7);
+  EXPECT_EQ(Taken() - before, 1u);
+  before = Taken();
+  volatile Eigen::Index size = 50;
+  const Eigen::VectorXd vector = Eigen::VectorXd::Constant(size, *number);
+  EXPECT_EQ(Taken() - before, 1u);
+  EXPECT_EQ(vector.size(), 50);
+}
+
+TEST(Allocations, SolverTakesNone) {
+  const OcpQp<8, 2> qp = tools::QpInstance(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp").Build();
+  OcpQp<8, 2> infeasible = qp, exact = qp, broken = qp;
+  ASSERT_TRUE(infeasible.stages[4].AddStateBound(2, 90.0, kNoBound));
+  ASSERT_TRUE(exact.stages[4].AddStateBound(2, 90.0, kNoBound, 1.0, 10.0));
+  broken.stages[2].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  OcpQpSolver<8, 2> solver(qp.horizon()), impatient(qp.horizon(), {.max_iterations = 2, .max_known_rows = 0});
+  const OcpQpPoint<8, 2> guess(qp.horizon());
+  const std::size_t before = Taken();
+  const SolverStatus cold = solver.Solve(qp).status;
+  const SolverStatus warm = solver.Solve(qp, &guess).status;
+  const SolverStatus penalised = solver.Solve(exact, &guess).status;
+  const SolverStatus proven = solver.Solve(infeasible).status;
+  const SolverStatus failed = solver.Solve(broken).status;
+  const SolverStatus stopped = impatient.Solve(qp).status;
+  EXPECT_EQ(Taken(), before);
+  EXPECT_EQ(cold, SolverStatus::kSolved);
+  EXPECT_EQ(warm, SolverStatus::kSolved);
+  EXPECT_EQ(penalised, SolverStatus::kSolved);
+  EXPECT_EQ(proven, SolverStatus::kInfeasible);
+  EXPECT_EQ(failed, SolverStatus::kNumericalFailure);
+  EXPECT_EQ(stopped, SolverStatus::kIterationLimit);
+}
+
+TEST(Allocations, ControlStepTakesNone) {
+  for (const auto method : {Discretisation::kEuler, Discretisation::kZeroOrderHold}) {
+    LpvMpcSettings settings;
+    settings.discretisation = method;
+    LpvMpc mpc(VehicleParameters{}, settings);
+    ClosedLoop loop(mpc, testing::StraightPath(200, 12.0));
+    loop.z()[kY] = 0.4;
+    loop.obstacles().reserve(100);
+    loop.obstacles().push_back({.X = 20.0, .Y = -0.5, .side = PassingSide::kLeft});
+    const auto step = [&](SolverStatus expected) {
+      const std::size_t before = Taken();
+      const Plan& plan = loop.Ask();
+      if (plan.status != SolverStatus::kSolved) static_cast<void>(mpc.DiagnoseInfeasibility());
+      const std::size_t taken = Taken() - before;
+      EXPECT_EQ(taken, 0u);
+      EXPECT_EQ(plan.status, expected);
+      if (plan.status == SolverStatus::kSolved) loop.Drive(plan);
+    };
+    while (loop.k() < 60) step(SolverStatus::kSolved);
+    loop.obstacles().assign(100, {.X = loop.z()[kX] + 2.0, .side = PassingSide::kLeft});
+    step(SolverStatus::kInfeasible);
+    loop.obstacles().clear();
+    const double Y = loop.z()[kY];
+    loop.z()[kY] = std::numeric_limits<double>::quiet_NaN();
+    step(SolverStatus::kNumericalFailure);
+    loop.z()[kY] = Y;
+    mpc.Reset();
+    step(SolverStatus::kSolved);
+  }
+}
+
+// Among obstacles, at a blocked road, in hold, and where nothing is solved.
+TEST(Allocations, StepWithTheAffineModelTakesNone) {
+  LpvAffineSettings settings;
+  settings.iterations = 3;
+  settings.converged = 0.0;
+  testing::CourseLoop loop(testing::WindingRoad(30.0, 12.0), settings);
+  loop.obstacles().reserve(100);
+  const auto step = [&](SolverStatus expected) {
+    const ControllerInput input = loop.Asked();
+    const std::size_t before = Taken();
+    const Plan& plan = loop.mpc().Step(input);
+    const std::size_t taken = Taken() - before;
+    EXPECT_EQ(taken, 0u);
+    ASSERT_EQ(plan.status, expected);
+    if (plan.status == SolverStatus::kSolved) loop.Drive(plan);
+  };
+  loop.obstacles() = {loop.ObstacleAt(30.0, 0.6, 0.6), loop.ObstacleAt(31.0, -2.5, 0.6)};
+  while (loop.s() < 50.0) step(SolverStatus::kSolved);
+  loop.obstacles()[0] = loop.ObstacleAt(85.0, 0.0, 3.0);
+  for (int k = 0; k < 200; ++k) step(SolverStatus::kSolved);
+  EXPECT_LT(loop.z()[kUpsilon], 0.01) << "it holds";
+  loop.obstacles().assign(100, loop.ObstacleAt(85.0, 0.0, 0.5));
+  step(SolverStatus::kNumericalFailure);
+  loop.obstacles().clear();
+  loop.mpc().Reset();
+  step(SolverStatus::kSolved);
+}
+
+}  // namespace
+}  // namespace control

@@ -1,0 +1,139 @@
+// LpvAffineMpc driving its own model along a course among obstacles, for tests.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "control/mpc/lpv_affine_mpc.hpp"
+#include "control/road/keep_out.hpp"
+#include "control/road/road_profile.hpp"
+#include "control/vehicle/discrete_model.hpp"
+#include "tests/control/roads.hpp"
+
+namespace control::testing {
+
+class CourseLoop {
+ public:
+  explicit CourseLoop(const Route& route, const LpvAffineSettings& settings = {}, const RoadBounds& road = {})
+      : settings_(settings),
+        course_(route, road, {}),
+        mpc_(VehicleParameters{}, course_, settings),
+        model_(BlendedModel(VehicleParameters{}), settings.t_s) {
+    PlaceAt(0.0, course_.At(0.0).speed);
+  }
+  CourseLoop(const CourseLoop&) = delete;  // the controller keeps a pointer to the course
+  CourseLoop& operator=(const CourseLoop&) = delete;
+
+  void PlaceAt(double s, double speed, double lateral = 0.0) {
+    const RoutePoint point = course_.At(s);
+    z_ << point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi), speed, 0.0,
+        point.psi, 0.0;
+    s_ = s;
+  }
+  // A circle of this radius, `lateral` left of the course.
+  [[nodiscard]] Obstacle ObstacleAt(double s, double lateral, double radius) const {
+    const RoutePoint point = course_.At(s);
+    return {.id = 1,
+            .X = point.X - lateral * std::sin(point.psi),
+            .Y = point.Y + lateral * std::cos(point.psi),
+            .r_x = radius,
+            .r_y = radius};
+  }
+
+  State& z() { return z_; }
+  Input& u() { return u_; }
+  std::vector<Obstacle>& obstacles() { return obstacles_; }
+  [[nodiscard]] const RoadProfile& course() const { return course_; }
+  [[nodiscard]] const LpvAffineSettings& settings() const { return settings_; }
+  LpvAffineMpc& mpc() { return mpc_; }
+  [[nodiscard]] const DiscreteModel& model() const { return model_; }
+
+  // The controller's answer to the present state; nothing moves.
+  const Plan& Ask() { return mpc_.Step(Asked()); }
+  [[nodiscard]] ControllerInput Asked() const {
+    return {.z = z_,
+            .u_previous = u_,
+            .reference = {},
+            .road = course_.road(),
+            .obstacles = obstacles_,
+            .time_left = nullptr};
+  }
+  // Applies the plan's first input for one step; obstacles move on.
+  void Drive(const Plan& plan) {
+    u_ = plan.u[0];
+    const double backwards = -z_[kUpsilon] / settings_.t_s;  // brakes do not drive backwards
+    z_ = model_.Step(z_, {u_[kDelta], std::max(u_[kAcceleration], backwards)});
+    for (Obstacle& obstacle : obstacles_) obstacle = Predict(obstacle, settings_.t_s);
+    const RouteProjection place = course_.Project(z_.head<2>(), s_);
+    s_ = place.s;
+    lateral_ = place.lateral;
+  }
+  [[nodiscard]] double s() const { return s_; }
+  [[nodiscard]] double lateral() const { return lateral_; }  // left of the course
+
+  // Points of the footprint's circumference in the map.
+  [[nodiscard]] std::vector<Eigen::Vector2d> Outline() const {
+    constexpr int kPoints = 20;  // on each side
+    const auto corners = settings_.footprint.Corners();
+    const Eigen::Rotation2Dd turn(z_[kPsi]);
+    std::vector<Eigen::Vector2d> points;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Eigen::Vector2d& to = corners[(k + 1) % corners.size()];
+      for (int j = 0; j < kPoints; ++j) {
+        const double share = static_cast<double>(j) / kPoints;
+        points.emplace_back(z_.head<2>() + turn * ((1.0 - share) * corners[k] + share * to));
+      }
+    }
+    return points;
+  }
+  // Least distance of the footprint from the circles that the obstacles are [m].
+  [[nodiscard]] double Clearance() const {
+    double least = 1e300;
+    for (const Eigen::Vector2d& point : Outline()) {
+      for (const Obstacle& o : obstacles_) {
+        least = std::min(least, (point - Eigen::Vector2d(o.X, o.Y)).norm() - o.r_x);
+      }
+    }
+    return least;
+  }
+  // Least distance of the footprint from the road's edges, negative off the road [m].
+  [[nodiscard]] double RoadMargin() const {
+    double least = 1e300;
+    for (const Eigen::Vector2d& point : Outline()) {
+      const double lateral = course_.Project(point, s_).lateral;
+      least = std::min({least, course_.road().left - lateral, lateral - course_.road().right});
+    }
+    return least;
+  }
+
+ private:
+  LpvAffineSettings settings_;
+  RoadProfile course_;
+  LpvAffineMpc mpc_;
+  DiscreteModel model_;
+  std::vector<Obstacle> obstacles_;
+  State z_;
+  Input u_ = Input::Zero();
+  double s_ = 0.0;
+  double lateral_ = 0.0;
+};
+
+// Of two plans' inputs.
+inline double LargestDifference(std::span<const Input> a, std::span<const Input> b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+// On a winding road, among obstacles on both sides.
+struct BusyRoad : CourseLoop {
+  explicit BusyRoad(const LpvAffineSettings& with = {}) : CourseLoop(WindingRoad(30.0, 12.0), with) {
+    obstacles() = {ObstacleAt(60.0, 0.5, 0.7), ObstacleAt(110.0, -0.5, 0.7)};
+    obstacles()[1].id = 2;
+  }
+};
+
+}  // namespace control::testing

@@ -1,0 +1,181 @@
+// LpvAffineMpc in closed loop with the nonlinear model.
+#include <algorithm>
+#include <cmath>
+
+#include "control/mpc/lpv_affine_mpc.hpp"
+#include "gtest/gtest.h"
+#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/roads.hpp"
+
+namespace control {
+namespace {
+
+using testing::CourseLoop;
+using testing::StraightRoad;
+using testing::WindingRoad;
+
+// What became of a drive.
+struct Figures {
+  int not_solved = 0;
+  double largest_lateral = 0.0;
+  double clearance = 1e300;
+  double road_margin = 1e300;
+  double largest_acceleration_across = 0.0;
+  double least_speed = 1e300;
+};
+
+// Drives for some time, or until `done`.
+template <typename Done>
+Figures Drive(CourseLoop& loop, double seconds, Done done) {
+  Figures figures;
+  for (int k = 0; k * loop.settings().t_s < seconds && !done(); ++k) {
+    const Plan& plan = loop.Ask();
+    if (plan.status != SolverStatus::kSolved) {
+      ++figures.not_solved;
+      break;
+    }
+    loop.Drive(plan);
+    figures.largest_lateral = std::max(figures.largest_lateral, std::abs(loop.lateral()));
+    figures.clearance = std::min(figures.clearance, loop.Clearance());
+    figures.road_margin = std::min(figures.road_margin, loop.RoadMargin());
+    figures.largest_acceleration_across =
+        std::max(figures.largest_acceleration_across, std::abs(loop.z()[kUpsilon] * loop.z()[kOmega]));
+    figures.least_speed = std::min(figures.least_speed, loop.z()[kUpsilon]);
+  }
+  return figures;
+}
+
+Figures Drive(CourseLoop& loop, double seconds) {
+  return Drive(loop, seconds, [] { return false; });
+}
+
+TEST(LpvAffineDrive, KeepsCloseToAWindingRoadAtTheSpeedOfItsCurves) {
+  CourseLoop loop(WindingRoad(25.0, 14.0));
+  const Figures figures = Drive(loop, 60.0, [&] { return loop.s() > 220.0; });
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_GE(loop.s(), 220.0);
+  EXPECT_LT(figures.largest_lateral, 0.15);
+  EXPECT_LT(figures.largest_acceleration_across, 3.3);
+  EXPECT_GT(figures.least_speed, 7.5);
+}
+
+TEST(LpvAffineDrive, StopsAtTheEndOfTheCourseAndHolds) {
+  CourseLoop loop(StraightRoad(80.0, 12.0));
+  EXPECT_EQ(Drive(loop, 14.0).not_solved, 0);
+  EXPECT_NEAR(loop.s(), 80.0, 0.5);
+  EXPECT_LT(loop.z()[kUpsilon], 0.05);
+  const State held = loop.z();
+  EXPECT_EQ(Drive(loop, 5.0).not_solved, 0);
+  EXPECT_LT((loop.z() - held).head<2>().norm(), 0.1);
+  EXPECT_NEAR(loop.u()[kAcceleration], -1.0, 1e-9);
+}
+
+TEST(LpvAffineDrive, SetsOffFromStandstill) {
+  CourseLoop loop(StraightRoad(200.0, 10.0));
+  loop.PlaceAt(0.0, 0.0, 0.5);
+  const Figures figures = Drive(loop, 12.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_NEAR(loop.z()[kUpsilon], 10.0, 0.6);
+  EXPECT_LT(std::abs(loop.lateral()), 0.05);
+  EXPECT_LT(figures.largest_lateral, 0.55);
+}
+
+TEST(LpvAffineDrive, ComesBackFromFarBesideTheCourse) {
+  for (const double lateral : {3.0, -3.0}) {
+    CourseLoop loop(StraightRoad(300.0, 12.0));
+    loop.PlaceAt(10.0, 12.0, lateral);
+    const Figures figures = Drive(loop, 6.0);
+    EXPECT_EQ(figures.not_solved, 0);
+    EXPECT_LT(std::abs(loop.lateral()), 0.1);
+    EXPECT_LT(figures.largest_lateral, 3.2);
+  }
+}
+
+class AnObstacle : public ::testing::TestWithParam<double> {};
+
+TEST_P(AnObstacle, IsPassedByTheWholeFootprintOnTheRoad) {
+  for (const double place : {60.0, 85.0, 110.0, 140.0}) {
+    CourseLoop loop(WindingRoad(40.0, 12.0));
+    loop.obstacles() = {loop.ObstacleAt(place, GetParam(), 0.8)};
+    const Figures figures = Drive(loop, 40.0, [&] { return loop.s() > place + 30.0; });
+    EXPECT_EQ(figures.not_solved, 0) << place;
+    EXPECT_GT(loop.s(), place + 29.0) << "it went on";
+    EXPECT_GT(figures.clearance, 0.2) << place;
+    EXPECT_GT(figures.road_margin, 0.1) << place;
+    EXPECT_GT(figures.least_speed, 5.0) << place;
+    EXPECT_LT(std::abs(loop.lateral()), 0.2) << place;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(LpvAffineDrive, AnObstacle, ::testing::Values(-1.5, -0.3, 0.3, 1.5));
+
+TEST(LpvAffineDrive, BeforeABlockedRoadItStopsHoldsAndGoesOnWhenItIsFree) {
+  CourseLoop loop(StraightRoad(300.0, 12.0));
+  loop.obstacles() = {loop.ObstacleAt(100.0, 0.0, 3.0)};
+  Figures figures = Drive(loop, 15.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_LT(std::abs(loop.z()[kUpsilon]), 0.05);
+  EXPECT_NEAR(figures.clearance, loop.settings().stop_gap, 0.5);
+  const double place = loop.s();
+  figures = Drive(loop, 10.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_NEAR(loop.s(), place, 0.1);
+  loop.obstacles().clear();
+  figures = Drive(loop, 8.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_GT(loop.s(), place + 30.0);
+}
+
+TEST(LpvAffineDrive, ObstacleThatCrossesIsPassed) {
+  for (const double speed : {1.0, -1.0}) {
+    CourseLoop loop(StraightRoad(200.0, 12.0));
+    Obstacle crossing = loop.ObstacleAt(60.0, -5.0 * speed, 0.5);
+    crossing.velocity_Y = speed;
+    loop.obstacles() = {crossing};
+    const Figures figures = Drive(loop, 8.0);
+    EXPECT_EQ(figures.not_solved, 0);
+    EXPECT_GT(figures.clearance, 0.2);
+    EXPECT_GT(figures.road_margin, 0.1);
+    EXPECT_GT(loop.s(), 80.0);
+  }
+}
+
+TEST(LpvAffineDrive, SlowerVehicleThatCannotBePassedIsFollowed) {
+  CourseLoop loop(StraightRoad(400.0, 12.0), {}, {.left = 2.0, .right = -2.0});
+  Obstacle slow = loop.ObstacleAt(40.0, 0.0, 1.0);
+  slow.velocity_X = 5.0;
+  loop.obstacles() = {slow};
+  Figures figures = Drive(loop, 15.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_GT(figures.clearance, 1.0);
+  figures = Drive(loop, 10.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_GT(figures.clearance, 1.0);
+  EXPECT_LT(loop.Clearance(), 8.0);
+  EXPECT_NEAR(loop.z()[kUpsilon], 5.0, 1.0);
+}
+
+TEST(LpvAffineDrive, ObstacleThatAppearsLateIsAvoided) {
+  for (const double lateral : {-0.6, 0.6}) {
+    CourseLoop loop(StraightRoad(200.0, 12.0));
+    Drive(loop, 1.0);
+    loop.obstacles() = {loop.ObstacleAt(loop.s() + 18.0, lateral, 0.6)};
+    const Figures figures = Drive(loop, 4.0);
+    EXPECT_EQ(figures.not_solved, 0);
+    EXPECT_GT(figures.clearance, 0.0);
+    EXPECT_GT(figures.road_margin, 0.0);
+  }
+}
+
+TEST(LpvAffineDrive, NearARoadBlockThatAppearsItBrakesAsHardAsItMay) {
+  CourseLoop loop(StraightRoad(200.0, 12.0));
+  Drive(loop, 1.0);
+  loop.obstacles() = {loop.ObstacleAt(loop.s() + 24.0, 0.0, 3.0)};  // 19 m before the front
+  const Figures figures = Drive(loop, 8.0);
+  EXPECT_EQ(figures.not_solved, 0);
+  EXPECT_LT(std::abs(loop.z()[kUpsilon]), 0.1);
+  EXPECT_GT(figures.clearance, 0.2);
+}
+
+}  // namespace
+}  // namespace control

@@ -1,0 +1,173 @@
+// What the plans of LpvAffineMpc keep to, and what they give up where not everything can be had.
+#include <algorithm>
+#include <cmath>
+
+#include "control/mpc/lpv_affine_mpc.hpp"
+#include "gtest/gtest.h"
+#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/roads.hpp"
+
+namespace control {
+namespace {
+
+using testing::BusyRoad;
+using testing::CourseLoop;
+using testing::StraightRoad;
+
+TEST(LpvAffinePlan, PlanKeepsToRangesAndRatesOfTheInputs) {
+  BusyRoad loop;
+  loop.PlaceAt(0.0, 12.0, 1.5);
+  const LpvAffineSettings& s = loop.settings();
+  double most_used = 0.0;
+  while (loop.s() < 130.0) {
+    const Plan& plan = loop.Ask();
+    ASSERT_EQ(plan.status, SolverStatus::kSolved) << loop.s();
+    Input last = loop.u();
+    for (const Input& u : plan.u) {
+      for (int j = 0; j < kInputs; ++j) {
+        EXPECT_GE(u[j], s.u_min[j] - 1e-6);
+        EXPECT_LE(u[j], s.u_max[j] + 1e-6);
+        EXPECT_LE(std::abs(u[j] - last[j]), s.rate_max[j] + 1e-6);
+      }
+      most_used = std::max(most_used, std::abs(u[kDelta] - last[kDelta]) / s.rate_max[kDelta]);
+      last = u;
+    }
+    loop.Drive(plan);
+  }
+  EXPECT_GT(most_used, 0.9) << "nothing was limited: the test shows nothing";
+}
+
+TEST(LpvAffinePlan, PlanIsWhatTheNonlinearModelDoesWithItsInputs) {
+  BusyRoad loop;
+  double largest = 0.0;
+  for (int k = 0; loop.s() < 130.0; ++k) {
+    const Plan& plan = loop.Ask();
+    ASSERT_EQ(plan.status, SolverStatus::kSolved);
+    State z = loop.z();
+    for (std::size_t i = 0; i < plan.u.size(); ++i) z = loop.model().Step(z, plan.u[i]);
+    largest = std::max(largest, (z - plan.z.back()).head<2>().norm());
+    loop.Drive(plan);
+  }
+  EXPECT_LT(largest, 0.5);  // of 24 m, 2 s ahead
+}
+
+TEST(LpvAffinePlan, PlanStaysWithinTheFrictionThatThereIs) {
+  CourseLoop loop(StraightRoad(300.0, 14.0));
+  loop.PlaceAt(0.0, 14.0);
+  loop.obstacles() = {loop.ObstacleAt(62.0, -0.9, 1.2)};
+  const double grip = loop.settings().friction_share * loop.settings().mu * 9.81;
+  double most_used = 0.0;
+  while (loop.s() < 100.0) {
+    const Plan& plan = loop.Ask();
+    ASSERT_EQ(plan.status, SolverStatus::kSolved);
+    for (std::size_t i = 1; i < plan.z.size() && plan.relaxation.amount == 0.0; ++i) {
+      const double across = plan.z[i][kUpsilon] * plan.z[i][kOmega];
+      const double along = plan.u[i - 1][kAcceleration];
+      // The product is bounded to first order.
+      EXPECT_LT(std::abs(across), 1.03 * grip);
+      EXPECT_LT(std::abs(across) + std::abs(along), 1.03 * std::sqrt(2.0) * grip);
+      most_used = std::max(most_used, (std::abs(across) + std::abs(along)) / grip);
+    }
+    loop.Drive(plan);
+  }
+  EXPECT_GT(most_used, 0.4);
+}
+
+TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessAcross) {
+  double across_before = 1e300;
+  for (const double mu : {0.7, 0.25}) {
+    LpvAffineSettings settings;
+    settings.mu = mu;
+    CourseLoop loop(StraightRoad(300.0, 12.0), settings);
+    loop.PlaceAt(0.0, 12.0, 2.5);
+    double across = 0.0;
+    for (int k = 0; k < 60; ++k) {
+      const Plan& plan = loop.Ask();
+      ASSERT_EQ(plan.status, SolverStatus::kSolved);
+      loop.Drive(plan);
+      across = std::max(across, std::abs(loop.z()[kUpsilon] * loop.z()[kOmega]));
+    }
+    const double grip = settings.friction_share * mu * 9.81;
+    EXPECT_LT(across, 1.05 * grip) << mu;
+    EXPECT_LT(across, across_before);
+    across_before = across;
+  }
+}
+
+TEST(LpvAffinePlan, InputThatIsOutOfRangeComesBackAsFastAsItMay) {
+  for (const Input& out : {Input(0.62, 0.0), Input(-0.62, 0.0), Input(0.0, -8.5), Input(0.0, 4.2)}) {
+    CourseLoop loop(StraightRoad(200.0, 6.0));
+    loop.PlaceAt(20.0, 3.0);
+    loop.u() = out;
+    const LpvAffineSettings& s = loop.settings();
+    const auto excess = [&](const Input& u) {
+      return Input((u - s.u_max).cwiseMax(s.u_min - u).cwiseMax(0.0));
+    };
+    for (int k = 0; k < 8; ++k) {
+      const Input before = loop.u();
+      const Plan& plan = loop.Ask();
+      ASSERT_EQ(plan.status, SolverStatus::kSolved) << out.transpose() << ", step " << k;
+      for (int j = 0; j < kInputs; ++j) {
+        EXPECT_LE(std::abs(plan.u[0][j] - before[j]), s.rate_max[j] + 1e-6);
+        EXPECT_LE(excess(plan.u[0])[j], std::max(excess(before)[j] - s.rate_max[j], 0.0) + 1e-6);
+      }
+      loop.Drive(plan);
+    }
+    EXPECT_LT(excess(loop.u()).maxCoeff(), 1e-6);
+  }
+}
+
+TEST(LpvAffinePlan, ObstacleThatIsTooNearIsNamedWithStepAndAmount) {
+  CourseLoop loop(StraightRoad(300.0, 12.0));
+  loop.PlaceAt(50.0, 6.0);
+  loop.obstacles() = {loop.ObstacleAt(50.0, -1.5, 0.8)};  // beside it; 0.9 + 0.3 + 0.8 would be due
+  loop.obstacles()[0].id = 7;
+  const Plan& plan = loop.Ask();
+  ASSERT_EQ(plan.status, SolverStatus::kSolved);
+  EXPECT_EQ(plan.relaxation.constraint.kind, ConstraintKind::kObstacle);
+  EXPECT_EQ(plan.relaxation.constraint.index, 7);
+  EXPECT_LE(plan.relaxation.constraint.step, 8) << "as long as it is beside it";
+  EXPECT_NEAR(plan.relaxation.amount, 0.5, 0.1);
+}
+
+TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
+  LpvAffineSettings settings;
+  settings.footprint = {.front = 0.0, .rear = 0.0, .half_width = 0.9};  // no end that turns outwards
+  CourseLoop loop(StraightRoad(300.0, 12.0), settings);
+  loop.PlaceAt(50.0, 12.0, 3.5);  // 0.4 m over the edge, and the margin
+  const Plan& plan = loop.Ask();
+  ASSERT_EQ(plan.status, SolverStatus::kSolved);
+  EXPECT_EQ(plan.relaxation.constraint.kind, ConstraintKind::kRoad);
+  EXPECT_EQ(plan.relaxation.constraint.step, 1);
+  EXPECT_NEAR(plan.relaxation.amount, 0.4 + settings.road_margin, 0.02);
+}
+
+// Closed on both sides, and no stopping any more: the two contradict one another.
+TEST(LpvAffinePlan, WhereRoadAndObstacleContradictOneAnotherItGivesUpWhatIsMissing) {
+  LpvAffineSettings settings;
+  settings.road_margin = 0.2;
+  CourseLoop loop(StraightRoad(300.0, 12.0), settings, {.left = 1.8, .right = -1.8});
+  loop.PlaceAt(50.0, 12.0, 0.5);
+  // Left of it 1.8 − 0.2 − (−1.1 + 0.7 + 0.3) = 1.7 m are left of 1.8 m.
+  loop.obstacles() = {loop.ObstacleAt(58.0, -1.1, 0.7)};
+  const Plan& plan = loop.Ask();
+  ASSERT_EQ(plan.status, SolverStatus::kSolved);
+  EXPECT_TRUE(plan.relaxation.constraint.kind == ConstraintKind::kRoad ||
+              plan.relaxation.constraint.kind == ConstraintKind::kObstacle);
+  EXPECT_NEAR(plan.relaxation.amount, 0.1, 0.06);
+  EXPECT_NEAR(plan.z[static_cast<std::size_t>(plan.relaxation.constraint.step)][kX], 58.0, 3.5);
+}
+
+TEST(LpvAffinePlan, NothingIsGivenUpWhereEverythingFits) {
+  CourseLoop loop(StraightRoad(300.0, 12.0));
+  loop.obstacles() = {loop.ObstacleAt(60.0, -0.5, 0.7)};
+  while (loop.s() < 90.0) {
+    const Plan& plan = loop.Ask();
+    ASSERT_EQ(plan.status, SolverStatus::kSolved);
+    EXPECT_LT(plan.relaxation.amount, 0.01) << loop.s();
+    loop.Drive(plan);
+  }
+}
+
+}  // namespace
+}  // namespace control

@@ -1,0 +1,126 @@
+#include "control/road/road_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gtest/gtest.h"
+#include "tests/control/roads.hpp"
+
+namespace control {
+namespace {
+
+using testing::CircularRoad;
+using testing::HairpinRoad;
+using testing::StraightRoad;
+using testing::WindingRoad;
+
+constexpr double kRadius = 25.0;
+constexpr double kPi = std::numbers::pi;
+
+Eigen::Vector2d Beside(const RoutePoint& point, double lateral) {
+  return {point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi)};
+}
+
+TEST(RoadProfile, PointsAreThoseOfTheRouteWithinTheSagittaOfItsSamples) {
+  const Route route = WindingRoad(kRadius, 12.0);
+  const RoadProfile course(route, {}, {});
+  const double sagitta = RoadProfile::kSpacing * RoadProfile::kSpacing / (8.0 * kRadius);
+  for (double s = -20.0; s < route.length() + 20.0; s += 0.13) {
+    const RoutePoint exact = route.At(s), point = course.At(s);
+    EXPECT_LT(std::hypot(point.X - exact.X, point.Y - exact.Y), 1.1 * sagitta) << s;
+    EXPECT_NEAR(point.psi, exact.psi, 1e-3) << s;
+    EXPECT_NEAR(point.curvature, exact.curvature, 2e-3) << s;
+  }
+}
+
+TEST(RoadProfile, ProjectionFindsPlaceAndLateralOffsetOfAPointBesideTheCourse) {
+  for (const Route& route :
+       {StraightRoad(30.0, 12.0), WindingRoad(kRadius, 12.0), CircularRoad(kRadius, 0.6, 12.0)}) {
+    const RoadProfile course(route, {}, {});
+    for (double s = -6.0; s < route.length() + 6.0; s += 0.37) {
+      for (const double lateral : {-3.5, -1.0, 0.0, 1.0, 3.5}) {
+        for (const double hint : {s - 4.0, s, s + 4.0}) {
+          const RouteProjection place = course.Project(Beside(route.At(s), lateral), hint);
+          EXPECT_NEAR(place.s, s, 0.05) << "lateral " << lateral << ", hint " << hint;
+          EXPECT_NEAR(place.lateral, lateral, 0.005) << "at " << s << ", hint " << hint;
+        }
+      }
+    }
+  }
+}
+
+TEST(RoadProfile, ProjectionStaysOnTheLegThatTheHintIsOn) {
+  const Route route = HairpinRoad(60.0, 6.0, 5.0);
+  const RoadProfile course(route, {}, {});
+  const Eigen::Vector2d between(20.0, 3.0);
+  EXPECT_NEAR(course.Project(between, 22.0).s, 20.0, 0.05);
+  const double back = route.length() - 20.0;
+  EXPECT_NEAR(course.Project(between, back - 2.0).s, back, 0.05);
+}
+
+TEST(RoadProfile, CircuitBeginsWithItsFirstLap) {
+  const Route route = CircularRoad(kRadius, 3.0, 8.0);
+  const RoadProfile course(route, {}, {});
+  const double lap = 2.0 * kPi * kRadius;
+  for (double s = 2.0; s < lap - 2.0; s += 3.1) {
+    const RoutePoint point = route.At(s);
+    const RouteProjection place = course.Find(Beside(point, 1.0), point.psi + 0.3 - 2.0 * kPi);
+    EXPECT_NEAR(place.s, s, 0.05);
+    EXPECT_NEAR(place.lateral, 1.0, 0.005);
+  }
+}
+
+TEST(RoadProfile, OfTwoLegsThatOneIsFoundThatTheVehicleHeadsAlong) {
+  const Route route = HairpinRoad(60.0, 6.0, 5.0);
+  const RoadProfile course(route, {}, {});
+  const Eigen::Vector2d nearer_to_the_first(20.0, 1.5), nearer_to_the_second(20.0, 4.5);
+  EXPECT_NEAR(course.Find(nearer_to_the_second, 0.4).s, 20.0, 0.05);
+  EXPECT_NEAR(course.Find(nearer_to_the_first, kPi - 0.4).s, route.length() - 20.0, 0.05);
+}
+
+TEST(RoadProfile, SpeedKeepsToTheTargetTheCurvesAndTheBrakes) {
+  const SpeedLimits limits{.lateral = 2.0, .acceleration = 1.5, .deceleration = 2.5};
+  const Route route = WindingRoad(kRadius, 14.0);
+  const RoadProfile course(route, {}, limits);
+  const double in_the_curve = std::sqrt(limits.lateral * kRadius);
+  double fastest = 0.0;
+  constexpr double kStep = 0.1;
+  for (double s = 0.0; s + kStep < route.length(); s += kStep) {
+    const RoutePoint point = course.At(s);
+    const double next = course.At(s + kStep).speed;
+    EXPECT_LE(point.speed, 14.0 + 1e-9);
+    // Between two samples both factors are interpolated.
+    EXPECT_LE(point.speed * point.speed * std::abs(point.curvature), 1.01 * limits.lateral) << s;
+    EXPECT_GE((next * next - point.speed * point.speed) / (2.0 * kStep), -limits.deceleration - 1e-9) << s;
+    fastest = std::max(fastest, point.speed);
+  }
+  EXPECT_NEAR(fastest, 14.0, 1e-9);
+  EXPECT_NEAR(course.At(85.0).speed, in_the_curve, 1e-9);
+  EXPECT_NEAR(course.At(route.length() - 10.0).speed, std::sqrt(2.0 * 2.5 * 10.0), 1e-6);
+  EXPECT_EQ(course.At(route.length()).speed, 0.0);
+  EXPECT_EQ(course.At(route.length() + 5.0).speed, 0.0);
+  EXPECT_EQ(course.At(-5.0).speed, course.At(0.0).speed);
+}
+
+TEST(RoadProfile, SlowerPieceIsReachedSlowly) {
+  const Route route =
+      Route::FromPieces({}, 12.0,
+                        std::array{RoutePiece{.length = 60.0}, RoutePiece{.length = 0.4, .speed = 4.0},
+                                   RoutePiece{.length = 60.0}});
+  const RoadProfile course(route, {}, {.lateral = 3.0, .acceleration = 1.5, .deceleration = 2.0});
+  EXPECT_NEAR(course.At(61.0).speed, 4.0, 1e-9);
+  EXPECT_NEAR(course.At(50.0).speed, std::sqrt(16.0 + 4.0 * 10.5), 0.1);
+}
+
+TEST(StoppingSpeed, IsThatFromWhichTheBrakesStopInTime) {
+  for (const double distance : {0.3, 1.0, 25.0}) {
+    const double speed = StoppingSpeed(distance, 2.0);
+    EXPECT_NEAR(speed * speed / (2.0 * 2.0), distance, 1e-12);
+  }
+  for (const double distance : {RoadProfile::kStopWithin, 0.1, 0.0, -3.0})
+    EXPECT_EQ(StoppingSpeed(distance, 2.0), 0.0);
+}
+
+}  // namespace
+}  // namespace control

@@ -1,0 +1,89 @@
+#include "loop/obstacle_assembler.hpp"
+
+#include <gtest/gtest.h>
+
+namespace loop {
+namespace {
+
+using namespace std::chrono_literals;
+
+void Tell(ObstacleAssembler& assembler, std::uint8_t id, double X) {
+  assembler.Update(bus::ObstaclePosition{.object_id = id, .X = X, .Y = -X});
+  assembler.Update(bus::ObstacleShape{.object_id = id,
+                                      .semi_axis_x = 2.0,
+                                      .semi_axis_y = 1.0,
+                                      .heading = 0.3,
+                                      .passing_side = bus::PassingSide::kRight});
+  assembler.Update(bus::ObstacleMotion{.object_id = id, .velocity_X = 5.0, .velocity_Y = 6.0});
+}
+
+TEST(ObstacleAssembler, ListTakesOverAllThatWasToldSinceTheLastOne) {
+  ObstacleAssembler assembler;
+  EXPECT_EQ(assembler.Age(1s), base::Time::max());
+  Tell(assembler, 7, 10.0);
+  Tell(assembler, 2, 20.0);
+  EXPECT_TRUE(assembler.obstacles().empty());
+  EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 2}, 1s));
+  ASSERT_EQ(assembler.obstacles().size(), 2U);
+  const control::Obstacle& first = assembler.obstacles()[0];
+  EXPECT_EQ(first.id, 7);
+  EXPECT_EQ(first.X, 10.0);
+  EXPECT_EQ(first.Y, -10.0);
+  EXPECT_EQ(first.r_x, 2.0);
+  EXPECT_EQ(first.r_y, 1.0);
+  EXPECT_EQ(first.heading, 0.3);
+  EXPECT_EQ(first.velocity_X, 5.0);
+  EXPECT_EQ(first.velocity_Y, 6.0);
+  EXPECT_EQ(first.side, control::PassingSide::kRight);
+  EXPECT_EQ(assembler.obstacles()[1].id, 2);
+
+  EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 0}, 2s));  // all gone
+  EXPECT_TRUE(assembler.obstacles().empty());
+  EXPECT_EQ(assembler.Age(3s), 1s);
+}
+
+TEST(ObstacleAssembler, ListThatDoesNotFitLeavesTheOldObstacles) {
+  ObstacleAssembler assembler;
+  Tell(assembler, 1, 10.0);
+  ASSERT_TRUE(assembler.Update(bus::ObstacleList{.count = 1}, 1s));
+
+  Tell(assembler, 1, 11.0);
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 2}, 2s));  // one too few
+  Tell(assembler, 1, 12.0);
+  Tell(assembler, 2, 12.0);
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // one too many
+  assembler.Update(bus::ObstaclePosition{.object_id = 1, .X = 13.0});
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // shape and motion missing
+  Tell(assembler, 1, 14.0);
+  assembler.Update(bus::ObstaclePosition{.object_id = 3});
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // an unfinished one beside
+
+  ASSERT_EQ(assembler.obstacles().size(), 1U);
+  EXPECT_EQ(assembler.obstacles()[0].X, 10.0);
+  EXPECT_EQ(assembler.rejected(), 4U);
+  EXPECT_EQ(assembler.Age(2s), 1s);
+
+  Tell(assembler, 1, 15.0);
+  EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 1}, 3s));  // nothing is left of them
+  EXPECT_EQ(assembler.obstacles()[0].X, 15.0);
+}
+
+TEST(ObstacleAssembler, ObjectWithoutExtentIsIncomplete) {
+  ObstacleAssembler assembler;
+  assembler.Update(bus::ObstaclePosition{.object_id = 1});
+  assembler.Update(bus::ObstacleShape{.object_id = 1, .semi_axis_x = 0.0, .semi_axis_y = 1.0});
+  assembler.Update(bus::ObstacleMotion{.object_id = 1});
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 1s));
+}
+
+TEST(ObstacleAssembler, MoreObjectsThanItHoldsAreRefusedAsAWhole) {
+  ObstacleAssembler assembler;
+  for (std::size_t i = 0; i <= ObstacleAssembler::kMaxObstacles; ++i) {
+    Tell(assembler, static_cast<std::uint8_t>(i), 1.0);
+  }
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = ObstacleAssembler::kMaxObstacles}, 1s));
+  EXPECT_TRUE(assembler.obstacles().empty());
+}
+
+}  // namespace
+}  // namespace loop

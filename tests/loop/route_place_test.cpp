@@ -1,0 +1,60 @@
+#include "loop/route_place.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
+
+namespace loop {
+namespace {
+
+control::State At(double X, double Y, double psi) {
+  control::State z = control::State::Zero();
+  z[control::kX] = X;
+  z[control::kY] = Y;
+  z[control::kPsi] = psi;
+  return z;
+}
+
+class RoutePlace : public testing::Test {
+ protected:
+  RoutePlace() {
+    for (int i = 0; i < 100; ++i) {
+      points_.emplace_back(0.5 * i, 0.0);
+    }
+  }
+  std::vector<Eigen::Vector2d> points_;
+  control::RoadBounds road_{.left = 3.0, .right = -2.0};
+};
+
+TEST_F(RoutePlace, NearestPointOnTheRoad) {
+  const control::TimeReference reference(points_, 0.05);
+  EXPECT_EQ(FindOnRoute(reference, road_, At(10.1, 2.9, 0.2), 0.5), 20);
+  EXPECT_EQ(FindOnRoute(reference, road_, At(10.1, -1.9, -0.2), 0.5), 20);
+  EXPECT_EQ(FindOnRoute(reference, road_, At(0.0, 0.0, 0.0), 0.5), 0);
+}
+
+TEST_F(RoutePlace, NoneOffTheRoadBeforeItBehindItOrAcrossIt) {
+  const control::TimeReference reference(points_, 0.05);
+  EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, 3.1, 0.0), 0.5));
+  EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, -2.1, 0.0), 0.5));
+  EXPECT_FALSE(FindOnRoute(reference, road_, At(-1.0, 0.0, 0.0), 0.5));
+  EXPECT_FALSE(FindOnRoute(reference, road_, At(60.0, 0.0, 0.0), 0.5));
+  EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, 0.0, 0.6), 0.5));
+}
+
+TEST_F(RoutePlace, CircuitBeginsWithItsFirstLap) {
+  points_.clear();
+  for (int i = 0; i < 1000; ++i) {
+    const double angle = i * 2.0 * std::numbers::pi / 400.0;
+    points_.emplace_back(50.0 * std::sin(angle), 50.0 - 50.0 * std::cos(angle));
+  }
+  const control::TimeReference reference(points_, 0.05);
+  const double angle = 2.0 * std::numbers::pi * 10.3 / 400.0;
+  EXPECT_EQ(
+      FindOnRoute(reference, road_, At(50.0 * std::sin(angle), 50.0 - 50.0 * std::cos(angle), angle), 0.5),
+      10);
+}
+
+}  // namespace
+}  // namespace loop

@@ -1,0 +1,61 @@
+#include "tools/drive/closed_loop.hpp"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "base/clock.hpp"
+#include "base/time.hpp"
+#include "loop/assembly.hpp"
+#include "sim/virtual_vehicle.hpp"
+#include "tools/drive/make_controller.hpp"
+
+namespace tools {
+
+sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& config,
+                             const ClosedLoopHooks& hooks) {
+  return DriveClosedLoop(scenario, config, config::LoadRoute(config.route), hooks);
+}
+
+sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& config,
+                             const config::RouteFile& route, const ClosedLoopHooks& hooks) {
+  if (config.loop.period != base::FromSeconds(sim::kCycleTime)) {
+    throw std::invalid_argument(
+        fmt::format("the configuration's cycle.period = {} must be {} s, the simulated vehicle's",
+                    std::chrono::duration<double>(config.loop.period).count(), sim::kCycleTime));
+  }
+  loop::Config untimed = config;  // what a computer takes for a step must not change the drive
+  untimed.loop.deadline = base::Time::max();
+  const auto make = [&](const loop::Config& of, const control::RoadProfile& course) {
+    std::unique_ptr<control::Controller> law = tools::MakeController(of, course);
+    if (hooks.qp && !law->SetQpObserver(hooks.qp)) {
+      throw std::invalid_argument(
+          fmt::format("controller {} solves no quadratic problem that could be recorded",
+                      loop::ControllerName(of.controller)));
+    }
+    if (hooks.step) law = std::make_unique<ObservedController>(std::move(law), hooks.step);
+    return law;
+  };
+  loop::Assembly controller(untimed, route, base::MonotonicNow, make);
+  sim::VirtualVehicle vehicle(scenario, controller.bus());
+  sim::Recorder recorder(scenario);
+  for (can::Time now{}; !recorder.finished(); now += config.loop.period) {
+    for (const can::Frame& frame : vehicle.Sense(now)) {
+      if (hooks.frame) hooks.frame(frame);
+      if (!controller.loop().Receive(frame, now)) continue;
+      for (can::Frame answer : controller.loop().Cycle(now, loop::Trigger::kState)) {
+        answer.timestamp = now;
+        if (hooks.frame) hooks.frame(answer);
+        vehicle.Receive(answer);
+      }
+    }
+    recorder.Record(vehicle);
+    if (hooks.stop && hooks.stop()) break;
+    vehicle.Advance();
+  }
+  return recorder.Result();
+}
+
+}  // namespace tools

@@ -1,0 +1,37 @@
+// The daemon's control loop and the virtual vehicle joined by frames in memory: no bus, no clock, no sleep.
+// It passes the frames on in the order of a lock-step run on a bus, so both give the same commands, bit for
+// bit.
+#pragma once
+
+#include <functional>
+
+#include "can/frame.hpp"
+#include "config/route_file.hpp"
+#include "loop/config.hpp"
+#include "sim/scenario.hpp"
+#include "sim/summary.hpp"
+#include "tools/drive/observed_controller.hpp"
+
+namespace tools {
+
+struct ClosedLoopHooks {
+  // Called with every frame of both sides, stamped with synthetic time.
+  std::function<void(const can::Frame&)> frame = nullptr;
+  // Called after every step of the controller.
+  std::function<void(const StepObservation&)> step = nullptr;
+  // Called with every quadratic problem before it is solved. The controller must be one that solves them.
+  control::QpObserver qp = nullptr;
+  // Asked after every cycle: true ends the drive there.
+  std::function<bool()> stop = nullptr;
+};
+
+// Drives the scenario to its end. Throws one line, before anything is driven: std::runtime_error if a file of the
+// configuration is missing or wrong, std::invalid_argument if its period is not the vehicle's, or if `hooks.qp` is set for
+// a controller that solves no quadratic problem.
+[[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& config,
+                                           const ClosedLoopHooks& hooks = {});
+// With a route of the caller's instead of the configuration's file.
+[[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& config,
+                                           const config::RouteFile& route, const ClosedLoopHooks& hooks = {});
+
+}  // namespace tools

@@ -1,0 +1,102 @@
+#include "tools/drive/drive_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <span>
+
+#include "control/vehicle/geometry.hpp"
+#include "loop/violation_text.hpp"
+
+namespace tools {
+namespace {
+
+// The point of the reference beside the vehicle; before its first point and after its last one, on straight on.
+control::State Beside(const control::State& z, std::span<const control::State> reference) {
+  control::State beside = reference.front();
+  for (std::size_t i = 0; i + 1 < reference.size(); ++i) {
+    const Eigen::Vector2d from = control::Position(reference[i]);
+    const Eigen::Vector2d way = control::Position(reference[i + 1]) - from;
+    if (way.squaredNorm() < 1e-6) break;
+    const double share = (control::Position(z) - from).dot(way) / way.squaredNorm();
+    if (i > 0 && share < 0.0) break;  // round a corner's outside
+    beside = reference[i] + share * (reference[i + 1] - reference[i]);
+    if (share <= 1.0) break;
+  }
+  return beside;
+}
+
+// Of the inputs that were applied, seen as the next step's u_{k−1}.
+class Meter {
+ public:
+  Meter(const CostWeights& weights, double t_s) : weights_(weights), t_s_(t_s) {}
+
+  void Take(const StepObservation& observed) {
+    const control::Input& u = observed.input.u_previous;
+    if (!figures_.step_seconds.empty()) {
+      const control::Input rate = (u - u_last_) / t_s_;
+      squared_rate_ += rate.cwiseAbs2();
+      figures_.cost += weights_.R.dot(u.cwiseAbs2());
+    }
+    u_last_ = u;
+    const auto& reference = observed.input.reference;
+    const control::State error =
+        observed.input.z - (weights_.along ? reference.front() : Beside(observed.input.z, reference));
+    figures_.cost += weights_.Q.dot(error.cwiseAbs2());
+    if (observed.plan.status != control::SolverStatus::kSolved && !figures_.first_failure) {
+      figures_.first_failure = {.step = static_cast<int>(figures_.step_seconds.size()),
+                                .status = observed.plan.status,
+                                .violation = observed.controller.DiagnoseInfeasibility()};
+    }
+    figures_.step_seconds.push_back(observed.seconds);
+  }
+
+  [[nodiscard]] DriveFigures Result(const sim::Summary& summary) const {
+    DriveFigures figures = figures_;
+    figures.summary = summary;
+    const auto rates = static_cast<double>(std::max<std::size_t>(figures.step_seconds.size(), 2) - 1);
+    figures.rms_steering_rate = std::sqrt(squared_rate_[control::kDelta] / rates);
+    figures.rms_jerk = std::sqrt(squared_rate_[control::kAcceleration] / rates);
+    return figures;
+  }
+
+ private:
+  CostWeights weights_;
+  double t_s_;
+  control::Input u_last_ = control::Input::Zero();
+  control::Input squared_rate_ = control::Input::Zero();
+  DriveFigures figures_;
+};
+
+const char* NameOf(control::SolverStatus status) {
+  switch (status) {
+    case control::SolverStatus::kSolved:
+      return "solved";
+    case control::SolverStatus::kInfeasible:
+      return "infeasible";
+    case control::SolverStatus::kIterationLimit:
+      return "iteration limit";
+    case control::SolverStatus::kNumericalFailure:
+      break;
+  }
+  return "numerical failure";
+}
+
+}  // namespace
+
+DriveFigures MeasureDrive(const sim::Scenario& scenario, const loop::Config& config,
+                          const config::RouteFile& route, const CostWeights& weights,
+                          const std::function<void(const can::Frame&)>& frame) {
+  Meter meter(weights, config.mpc.t_s);
+  const ClosedLoopHooks hooks{.frame = frame,
+                              .step = [&](const StepObservation& observed) { meter.Take(observed); }};
+  return meter.Result(DriveClosedLoop(scenario, config, route, hooks));
+}
+
+std::string ToText(const FirstFailure& failure) {
+  std::string text = fmt::format("step {}, {}", failure.step, NameOf(failure.status));
+  if (failure.violation) text += ": " + loop::ViolationText(*failure.violation);
+  return text;
+}
+
+}  // namespace tools

@@ -1,0 +1,38 @@
+// A controller whose every step is timed and shown to an observer.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "control/mpc/controller.hpp"
+
+namespace tools {
+
+struct StepObservation {
+  const control::ControllerInput& input;
+  const control::Plan& plan;
+  const control::Controller& controller;
+  double seconds;  // of wall clock that the step took
+};
+
+class ObservedController final : public control::Controller {
+ public:
+  ObservedController(std::unique_ptr<control::Controller> controller,
+                     std::function<void(const StepObservation&)> observer)
+      : controller_(std::move(controller)), observer_(std::move(observer)) {}
+
+  [[nodiscard]] int horizon() const override { return controller_->horizon(); }
+  [[nodiscard]] const control::Plan& Step(const control::ControllerInput& input) override;
+  void Reset() override { controller_->Reset(); }
+  [[nodiscard]] std::optional<control::ConstraintViolation> DiagnoseInfeasibility() const override {
+    return controller_->DiagnoseInfeasibility();
+  }
+
+ private:
+  std::unique_ptr<control::Controller> controller_;
+  std::function<void(const StepObservation&)> observer_;
+};
+
+}  // namespace tools

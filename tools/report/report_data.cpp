@@ -1,0 +1,154 @@
+#include "tools/report/report_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Of a middle-sized car about its axles [m].
+constexpr double kOverhang = 0.9;
+constexpr double kWidth = 1.8;
+
+// As many decimals as can be seen in a picture.
+double Rounded(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
+}
+
+// One series of all samples; null where `value` gives NaN.
+template <typename Value>
+ordered_json Series(const DriveRecord& record, int decimals, const Value& value) {
+  ordered_json series = ordered_json::array();
+  for (const DriveSample& sample : record.samples) {
+    const double number = value(sample);
+    series.push_back(std::isnan(number) ? ordered_json(nullptr) : ordered_json(Rounded(number, decimals)));
+  }
+  return series;
+}
+
+// Of quantities that only a cycle with a solved problem has.
+template <typename Value>
+auto IfSolving(const Value& value) {
+  return [value](const DriveSample& sample) {
+    return sample.status.solver_status == bus::SolverStatus::kNone ? std::nan("") : value(sample);
+  };
+}
+
+ordered_json OutlineData(const control::Footprint& footprint, const control::VehicleParameters& vehicle) {
+  if (footprint.front + footprint.rear + footprint.half_width > 0.0) {
+    return {{"front", footprint.front}, {"rear", footprint.rear}, {"width", 2.0 * footprint.half_width}};
+  }
+  return {{"front", vehicle.l_f + kOverhang}, {"rear", vehicle.l_r + kOverhang}, {"width", kWidth}};
+}
+
+ordered_json SeriesData(const DriveRecord& record, const loop::Config& config,
+                        const config::RouteFile& road) {
+  ordered_json series;
+  const auto state = [](int index) { return [index](const DriveSample& s) { return s.z[index]; }; };
+  series["t"] = Series(record, 2, [&](const DriveSample& s) { return record.Time(s); });
+  series["X"] = Series(record, 2, state(control::kX));
+  series["Y"] = Series(record, 2, state(control::kY));
+  series["psi"] = Series(record, 3, state(control::kPsi));
+  series["upsilon"] = Series(record, 2, state(control::kUpsilon));
+  std::optional<double> hint;
+  series["upsilon_ref"] = Series(record, 2, [&](const DriveSample& s) {
+    hint = road.route.Project({s.z[control::kX], s.z[control::kY]}, hint).s;
+    return road.route.At(*hint).speed;
+  });
+  series["delta"] = Series(record, 4, [](const DriveSample& s) { return s.u[control::kDelta]; });
+  series["a"] = Series(record, 3, [](const DriveSample& s) { return s.u[control::kAcceleration]; });
+  series["solve_time"] =
+      Series(record, 0, IfSolving([](const DriveSample& s) { return s.status.solve_time * 1e6; }));
+  series["solved"] = Series(record, 0, IfSolving([](const DriveSample& s) {
+                              return s.status.solver_status == bus::SolverStatus::kSolved ? 1.0 : 0.0;
+                            }));
+  // An NMPC has no scheduling.
+  const bool scheduled = !IsNmpc(config.controller);
+  const auto if_scheduled = [scheduled](const auto& value) {
+    return IfSolving(
+        [=](const DriveSample& s) { return scheduled ? static_cast<double>(value(s)) : std::nan(""); });
+  };
+  series["scheduling_error"] =
+      Series(record, 3, if_scheduled([](const DriveSample& s) { return s.health.scheduling_error; }));
+  series["active_rows"] =
+      Series(record, 0, if_scheduled([](const DriveSample& s) { return s.health.active_rows; }));
+  series["largest_slack"] =
+      Series(record, 2, if_scheduled([](const DriveSample& s) { return s.health.largest_slack; }));
+  return series;
+}
+
+ordered_json PlansData(const DriveRecord& record) {
+  ordered_json plans{
+      {"k", ordered_json::array()}, {"dX", ordered_json::array()}, {"dY", ordered_json::array()}};
+  for (std::size_t k = 0; k < record.samples.size(); ++k) {
+    const DriveSample& sample = record.samples[k];
+    if (sample.plan.empty()) continue;
+    ordered_json dX = ordered_json::array(), dY = ordered_json::array();
+    for (const Eigen::Vector2d& point : sample.plan) {
+      dX.push_back(Rounded(point.x() - sample.z[control::kX], 2));
+      dY.push_back(Rounded(point.y() - sample.z[control::kY], 2));
+    }
+    plans["k"].push_back(k);
+    plans["dX"].push_back(std::move(dX));
+    plans["dY"].push_back(std::move(dY));
+  }
+  return plans;
+}
+
+}  // namespace
+
+ordered_json RoadData(const config::RouteFile& road) {
+  constexpr double kSpacing = 2.0;  // [m]
+  struct Line {
+    ordered_json X = ordered_json::array(), Y = ordered_json::array();
+  };
+  const auto line = [&](double lateral) {
+    Line points;
+    const auto steps = static_cast<int>(std::ceil(road.route.length() / kSpacing));
+    for (int i = 0; i <= steps; ++i) {
+      const control::RoutePoint at = road.route.At(std::min(i * kSpacing, road.route.length()));
+      points.X.push_back(Rounded(at.X - lateral * std::sin(at.psi), 2));
+      points.Y.push_back(Rounded(at.Y + lateral * std::cos(at.psi), 2));
+    }
+    return ordered_json{{"X", points.X}, {"Y", points.Y}};
+  };
+  return {{"reference", line(0.0)}, {"left", line(road.road.left)}, {"right", line(road.road.right)}};
+}
+
+ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const loop::Config& config,
+                       const config::RouteFile& road) {
+  ordered_json obstacles = ordered_json::array();
+  for (const control::Obstacle& o : record.obstacles) {
+    obstacles.push_back({{"id", o.id},
+                         {"X", o.X},
+                         {"Y", o.Y},
+                         {"r_x", o.r_x},
+                         {"r_y", o.r_y},
+                         {"heading", o.heading},
+                         {"margin", config.mpc.obstacle_margin},
+                         {"velocity_X", o.velocity_X},
+                         {"velocity_Y", o.velocity_Y}});
+  }
+  const control::Input &lo = config.mpc.u_min, &hi = config.mpc.u_max;
+  return {{"name", label.name},
+          {"controller", loop::ControllerName(config.controller)},
+          {"horizon", loop::HorizonOf(config)},
+          {"t_s", config.mpc.t_s},
+          {"road", label.road_key},
+          {"obstacles", obstacles},
+          {"outline", OutlineData(label.footprint, config.vehicle)},
+          {"limits",
+           {{"delta", {Rounded(lo[control::kDelta], 4), Rounded(hi[control::kDelta], 4)}},
+            {"a", {lo[control::kAcceleration], hi[control::kAcceleration]}}}},
+          {"series", SeriesData(record, config, road)},
+          {"plans", PlansData(record)}};
+}
+
+}  // namespace tools

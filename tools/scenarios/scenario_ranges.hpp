@@ -1,0 +1,24 @@
+// From what the scenarios of a sweep are drawn.
+#pragma once
+
+namespace tools {
+
+struct Interval {
+  double low = 0.0;
+  double high = 0.0;
+  bool operator==(const Interval&) const = default;
+};
+
+struct ScenarioRanges {
+  Interval speed{8.0, 20.0};  // target speed [m/s]
+  Interval mu{0.4, 1.0};      // friction coefficient of the road
+  bool operator==(const ScenarioRanges&) const = default;
+};
+
+inline constexpr Interval kSpeedLimits{3.0, 40.0};
+inline constexpr Interval kMuLimits{0.1, 1.2};
+
+// Throws std::invalid_argument, in the words of the command line, if a range leaves these limits or is reversed.
+void CheckRanges(const ScenarioRanges& ranges);
+
+}  // namespace tools
