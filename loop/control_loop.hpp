@@ -1,7 +1,8 @@
 // The way of a frame, from the bus to the bus:
 //
-//   Receive   frame ─► MessageMonitor ─► physical values ─► StateAssembler, ObstacleAssembler, driver's request
-//   Cycle     what is known ─► plan ─► mode ─► command ─► CommandLimiter ─► CommandGate ─► frames
+//   Receive   frame ─► Inbox: MessageMonitor ─► physical values ─► StateAssembler, ObstacleAssembler, driver's request
+//   Cycle     Snapshot ─► RoutePlace ─► Outcome of planning ─► mode ─► LimitedCommand ─► frames
+//             (Inbox)     (RouteTracker) (Planner)     (ModeMachine) (CommandSource)   (CommandGate, Reports)
 //
 // A cycle runs when the state set of a new counter is complete, and by a timer when none came in time. The
 // loop reads no clock, does no I/O and logs nothing; after construction it does not allocate. So the daemon
@@ -24,15 +25,13 @@
 #include "can/frame.hpp"
 #include "control/mpc/controller.hpp"
 #include "control/mpc/plan_check.hpp"
-#include "control/road/path_stop.hpp"
 #include "control/road/time_reference.hpp"
-#include "control/vehicle/delay_compensator.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
-#include "loop/active_plan.hpp"
-#include "loop/cycle_report.hpp"
-#include "loop/obstacle_assembler.hpp"
-#include "loop/state_assembler.hpp"
-#include "loop/step_counter.hpp"
+#include "loop/command_source.hpp"
+#include "loop/inbox.hpp"
+#include "loop/planner.hpp"
+#include "loop/reports.hpp"
+#include "loop/route_tracker.hpp"
 #include "safety/command_gate.hpp"
 #include "safety/command_limiter.hpp"
 #include "safety/message_monitor.hpp"
@@ -58,8 +57,6 @@ struct LoopSettings {
   base::Time command_delay{};  // from a command to its effect
 };
 
-enum class Trigger : std::uint8_t { kState, kTimer };
-
 class ControlLoop {
  public:
   // `stopwatch` tells a time of any start, for durations only. `bus`, `controller`, `reference` and `check` must
@@ -84,75 +81,39 @@ class ControlLoop {
   [[nodiscard]] std::span<const can::Frame> Disable();
 
   // What the cycle before took, from the arrival of its state to both commands sent; to be published in the next.
-  void SetCycleLatency(base::Time latency) { report_.cycle_latency = latency; }
+  void SetCycleLatency(base::Time latency) { reports_.SetCycleLatency(latency); }
 
   // Takes over what of the settings can change while no commands are enabled: monitor, engagement, stop, and whether
   // the horizon is sent.
   void Reconfigure(const LoopSettings& settings);
 
   // False while the interface is down or gone.
-  void SetBusUp(bool up) { bus_up_ = up; }
+  void SetBusUp(bool up) { inbox_.SetBusUp(up); }
 
-  [[nodiscard]] const CycleReport& report() const { return report_; }
-  [[nodiscard]] const safety::MessageMonitor& monitor() const { return monitor_; }
+  [[nodiscard]] const CycleReport& report() const { return reports_.report(); }
+  [[nodiscard]] const safety::MessageMonitor& monitor() const { return inbox_.monitor(); }
   [[nodiscard]] const safety::CommandGate& gate() const { return gate_; }
-  [[nodiscard]] const ObstacleAssembler& obstacles() const { return obstacles_; }
-  [[nodiscard]] const VehicleState& state() const { return states_.state(); }
+  [[nodiscard]] const ObstacleAssembler& obstacles() const { return inbox_.obstacles(); }
+  [[nodiscard]] const VehicleState& state() const { return inbox_.state(); }
   [[nodiscard]] const LoopSettings& settings() const { return settings_; }
 
  private:
-  [[nodiscard]] safety::ModeInputs Judge(base::Time now, Trigger trigger);
-  void TrackVehicle(const safety::ModeInputs& inputs, bool engaging);
-  void Solve(base::Time now, bool engaging);
-  void JudgePlan(bool late);
-  [[nodiscard]] bool AtRouteEnd() const;
-  [[nodiscard]] std::optional<safety::Cause> PlanFault(const safety::ModeInputs& inputs, bool late) const;
-  [[nodiscard]] safety::LimitResult Command() const;
-  [[nodiscard]] safety::LimitResult Measured() const;
-  [[nodiscard]] bus::FaultCode Fault(const safety::ModeInputs& inputs) const;
-  [[nodiscard]] base::Time Countdown(const safety::ModeInputs& inputs) const;
-  [[nodiscard]] bool Emit(const safety::LimitedCommand& command, Trigger trigger);
-  void EmitReports();
+  [[nodiscard]] safety::ModeInputs InputsOf(const Snapshot& known, const RoutePlace& place) const;
+  [[nodiscard]] PlanRequest RequestOf(const Snapshot& known, const safety::ModeInputs& inputs) const;
+  [[nodiscard]] safety::LimitResult Issue(safety::ModeInputs& inputs, const Snapshot& known,
+                                          const Outcome& outcome);
+  [[nodiscard]] bool Encode(const safety::LimitResult& limited, const Snapshot& known,
+                            const Outcome& outcome);
 
   LoopSettings settings_;
-  control::Controller* controller_;
-  const control::TimeReference* reference_;
-  control::RoadBounds road_;
-  std::function<base::Time()> stopwatch_;
-  control::PlanCheck* check_;
-
-  safety::MessageMonitor monitor_;
-  StateAssembler states_;
-  ObstacleAssembler obstacles_;
-  safety::CommandLimiter limiter_;
-  safety::CommandGate gate_;
-
-  bool bus_up_ = true;
-  base::Time last_sent_{};  // the last cycle that found the bus up
-  bus::DriverRequest request_;
-  bool released_ = false;       // since the last cycle
-  bool override_seen_ = false;  // since the last cycle
-  base::Time trigger_time_{};
+  Inbox inbox_;
+  RouteTracker tracker_;
+  Planner planner_;
   safety::ModeState mode_;
-
-  StepCounter steps_;
-  std::int64_t step_ = 0;         // of the command: later than the state's, if the cycle took that long
-  std::int64_t route_start_ = 0;  // reference point k belongs to step route_start_ + k
-
-  ActivePlan plan_;
-  const control::Plan* solve_ = nullptr;             // of this cycle, accepted or not
-  control::PathStop stop_;                           // knows where the vehicle is, and where the plan leads
-  control::Input applied_ = control::Input::Zero();  // last command that was enabled, else as measured
-
-  control::DelayCompensator delay_;
-  base::Time cycle_start_{};                   // by the stopwatch
-  std::function<bool()> time_left_;            // for another iteration
-  control::State z_ = control::State::Zero();  // when the command of this cycle acts
-  std::vector<control::Obstacle> moved_;       // the obstacles then
-
-  std::vector<control::State> window_;
+  CommandSource commands_;
+  safety::CommandGate gate_;
+  Reports reports_;
   std::vector<can::Frame> frames_;
-  CycleReport report_;
 };
 
 }  // namespace loop

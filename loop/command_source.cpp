@@ -1,0 +1,29 @@
+#include "loop/command_source.hpp"
+
+namespace loop {
+
+void CommandSource::Observe(const VehicleState& state, bool commanding) {
+  if (!commanding && state.complete) {
+    applied_ = state.feedback;
+  }
+}
+
+safety::LimitResult CommandSource::Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,
+                                           const RouteTracker& tracker, const VehicleState& state) const {
+  if (bus::Drives(mode)) {
+    return limiter_.Limit(plan.At(step), applied_, plan.Age(step));
+  }
+  if (mode == bus::Mode::kSafeStop) {
+    // The steering of the rest of the last plan, then along its path; never snapped to zero.
+    const double delta =
+        plan.Covers(step) ? plan.At(step)[control::kDelta] : tracker.StopSteering(applied_[control::kDelta]);
+    return limiter_.Limit({delta, -stop_deceleration_}, applied_, 0);
+  }
+  return Measured(state);
+}
+
+safety::LimitResult CommandSource::Measured(const VehicleState& state) const {
+  return limiter_.Limit(state.feedback, state.feedback, 0);
+}
+
+}  // namespace loop

@@ -1,0 +1,114 @@
+#include "loop/planner.hpp"
+
+#include <utility>
+
+#include "control/road/keep_out.hpp"
+#include "loop/plan_verdict.hpp"
+
+namespace loop {
+namespace {
+
+constexpr int kShareForIterations = 4;  // another iteration begins within the deadline's part of this many
+
+// Why there is no new plan in a cycle that should have one.
+std::optional<safety::Cause> FaultOf(const Outcome& outcome, bool state_new) {
+  using safety::Cause;
+  if (outcome.accepted) return std::nullopt;
+  if (outcome.late) return Cause::kDeadlineMissed;
+  if (outcome.solution == nullptr) return state_new ? std::nullopt : std::optional(Cause::kStateLate);
+  return outcome.solution->status == control::SolverStatus::kSolved ? Cause::kPlanRejected
+                                                                    : Cause::kSolverFailed;
+}
+
+}  // namespace
+
+Planner::Planner(const PlannerSettings& settings, control::Controller& controller,
+                 const control::TimeReference& reference, const control::RoadBounds& road,
+                 std::function<base::Time()> stopwatch, control::PlanCheck* check)
+    : settings_(settings),
+      controller_(&controller),
+      reference_(&reference),
+      road_(road),
+      stopwatch_(std::move(stopwatch)),
+      check_(check),
+      time_left_([this] { return stopwatch_() - start_ < settings_.deadline / kShareForIterations; }),
+      delay_(settings.vehicle, base::ToSeconds(settings.period), base::ToSeconds(settings.command_delay)),
+      active_(controller.horizon()),
+      window_(static_cast<std::size_t>(controller.horizon()) + 1) {
+  obstacles_.reserve(ObstacleAssembler::kMaxObstacles);
+}
+
+Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const RoutePlace& place, bool commanding,
+                      const control::Input& applied) {
+  if (commanding) {
+    delay_.Given(applied);
+  } else {
+    delay_.Reset(applied);
+  }
+  Outcome outcome;
+  if (request == PlanRequest::kFirst) {
+    controller_->Reset();
+    if (check_ != nullptr) check_->Reset();
+  }
+  const bool due = request == PlanRequest::kFirst || request == PlanRequest::kNext;
+  if (due && known.waited <= settings_.deadline) {
+    outcome.solution = &Solve(known, place, applied);
+    outcome.relaxation = Unmet(*outcome.solution);
+  }
+  outcome.solve_time = stopwatch_() - start_;
+  const base::Time age = known.waited + outcome.solve_time;
+  outcome.late = age > settings_.deadline;
+  outcome.step = known.step + (outcome.late ? age / settings_.period : 0);
+  if (outcome.solution != nullptr) {
+    Accept(known, outcome);
+  }
+  if (request != PlanRequest::kNone) {
+    outcome.fault = FaultOf(outcome, known.state_new);
+  }
+  return outcome;
+}
+
+const control::Plan& Planner::Solve(const Snapshot& known, const RoutePlace& place,
+                                    const control::Input& applied) {
+  const VehicleState& state = known.state;
+  z_ = delay_.Ahead(state.z, base::ToSeconds(known.now - state.timestamp));
+  obstacles_.assign(known.obstacles.begin(), known.obstacles.end());
+  for (control::Obstacle& obstacle : obstacles_) {
+    obstacle = control::Predict(obstacle, base::ToSeconds(known.obstacle_age) + delay_.delay());
+  }
+  reference_->Window(place.point, window_);
+  const double psi = window_.front()[control::kPsi];
+  z_[control::kPsi] = psi + control::WrapAngle(z_[control::kPsi] - psi);
+  return controller_->Step({.z = z_,
+                            .u_previous = applied,
+                            .reference = window_,
+                            .road = road_,
+                            .obstacles = obstacles_,
+                            .time_left = &time_left_});
+}
+
+std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& plan) const {
+  if (plan.status != control::SolverStatus::kSolved) return controller_->DiagnoseInfeasibility();
+  if (plan.relaxation.amount > 0.0) return plan.relaxation;
+  return std::nullopt;
+}
+
+void Planner::Accept(const Snapshot& known, Outcome& outcome) {
+  const control::Plan& plan = *outcome.solution;
+  bus::FaultCode refusal =
+      outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
+  if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
+    const CheckVerdict verdict = CheckPlan(*check_, z_, plan.u, active_.From(known.step), obstacles_);
+    outcome.rejection = verdict.violation;
+    if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
+  }
+  outcome.accepted = refusal == bus::FaultCode::kNone;
+  if (outcome.accepted) {
+    active_.Take(plan, known.step);
+  } else {
+    ++refused_;
+    last_refusal_ = refusal;
+  }
+}
+
+}  // namespace loop
