@@ -1,31 +1,26 @@
 #include "loop/route_place.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "control/road/projection.hpp"
+#include "control/vehicle/geometry.hpp"
+
 namespace loop {
-namespace {
-
-Eigen::Vector2d Position(const control::State& z) {
-  return {z[control::kX], z[control::kY]};
-}
-
-}  // namespace
 
 std::optional<int> FindOnRoute(const control::TimeReference& reference, const control::RoadBounds& road,
                                const control::State& z, double max_heading_error) {
+  using control::Position;
   const int last = reference.size() - 1;
   const Eigen::Vector2d p = Position(z);
   const auto distance = [&](int k) { return (p - Position(reference[k])).squaredNorm(); };
   for (int k = 0; k <= last; ++k) {
-    const double here = distance(k);
-    if ((k > 0 && distance(k - 1) <= here) || (k < last && distance(k + 1) < here)) {
+    const bool nearer_than_before = k == 0 || distance(k) < distance(k - 1);
+    if (!nearer_than_before || control::NearestSample(distance, k, k, std::min(k + 1, last)) != k) {
       continue;
     }
     const control::State& r = reference[k];
-    const Eigen::Vector2d d = p - Position(r);
-    const Eigen::Vector2d along(std::cos(r[control::kPsi]), std::sin(r[control::kPsi]));
-    const double ahead = along.dot(d);
-    const double left = along.x() * d.y() - along.y() * d.x();
+    const auto [ahead, left] = control::OffsetFrom(Position(r), r[control::kPsi], p);
     const int neighbour = k < last ? k + 1 : k - 1;
     const double spacing = (Position(reference[neighbour]) - Position(r)).norm();
     if (std::abs(ahead) <= spacing && left <= road.left && left >= road.right &&

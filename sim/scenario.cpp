@@ -8,6 +8,7 @@
 
 #include "config/route_file.hpp"
 #include "config/toml_table.hpp"
+#include "control/road/projection.hpp"
 
 namespace sim {
 namespace {
@@ -46,8 +47,9 @@ void PlaceOnRoute(const TomlTable& table, const control::Route& route, control::
   }
   const control::RoutePoint point = route.At(table.Number("s", {0.0, route.length()}, "m"));
   const double lateral = table.NumberOr("lateral", 0.0, kLateral, "m");
-  obstacle.X = point.X - lateral * std::sin(point.psi);
-  obstacle.Y = point.Y + lateral * std::cos(point.psi);
+  const Eigen::Vector2d centre = control::Beside(point, lateral);
+  obstacle.X = centre.x();
+  obstacle.Y = centre.y();
   obstacle.heading = control::WrapAngle(obstacle.heading + point.psi);
   const auto check = [&](const char* axis, double value, const Range<double>& range) {
     if (value >= range.min && value <= range.max) return;
@@ -168,8 +170,9 @@ void Scenario::PlaceVehicle(double along, double speed, double lateral, double h
   const double front_slip = v.m * v.l_r * speed * speed * point.curvature / (2.0 * v.C_alpha_f * wheelbase);
   const double sideslip = v.l_r * point.curvature - rear_slip;
 
-  initial[control::kX] = point.X - lateral * std::sin(point.psi);
-  initial[control::kY] = point.Y + lateral * std::cos(point.psi);
+  const Eigen::Vector2d place = control::Beside(point, lateral);
+  initial[control::kX] = place.x();
+  initial[control::kY] = place.y();
   initial[control::kUpsilon] = speed;
   initial[control::kNu] = speed * sideslip;
   initial[control::kPsi] = control::WrapAngle(point.psi - sideslip + heading);

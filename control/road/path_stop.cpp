@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/road/projection.hpp"
 #include "control/vehicle/geometry.hpp"
 #include "control/vehicle/steady_cornering.hpp"
 
@@ -71,9 +72,8 @@ State PathStop::At(int k) const {
 }
 
 int PathStop::Nearest(const Eigen::Vector2d& p, int from) const {
-  int k = from;
-  while (k < from + kMostPoints && (p - Position(At(k + 1))).norm() < (p - Position(At(k))).norm()) ++k;
-  return k;
+  const auto distance = [&](int k) { return (p - Position(At(k))).norm(); };
+  return NearestSample(distance, from, from, from + kMostPoints);
 }
 
 }  // namespace control

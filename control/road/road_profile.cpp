@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "control/road/projection.hpp"
+
 namespace control {
 namespace {
-
-Eigen::Vector2d Position(const RoutePoint& point) {
-  return {point.X, point.Y};
-}
 
 RoutePoint Ahead(RoutePoint point, double distance) {
   point.X += distance * std::cos(point.psi);
@@ -72,22 +70,19 @@ RoutePoint RoadProfile::At(double s) const {
 }
 
 RouteProjection RoadProfile::Project(const Eigen::Vector2d& position, double hint) const {
-  const auto distance = [&](std::size_t k) { return (position - Position(points_[k])).squaredNorm(); };
-  const double last = static_cast<double>(points_.size() - 1);
-  auto k = static_cast<std::size_t>(std::clamp(std::round(hint / spacing_), 0.0, last));
-  while (k + 1 < points_.size() && distance(k + 1) < distance(k)) ++k;
-  while (k > 0 && distance(k - 1) < distance(k)) --k;
-  const RoutePoint& point = points_[k];
-  const Eigen::Vector2d d = position - Position(point);
-  const Eigen::Vector2d along(std::cos(point.psi), std::sin(point.psi));
-  const double left = along.x() * d.y() - along.y() * d.x();
+  const auto at = [&](int k) -> const RoutePoint& { return points_[static_cast<std::size_t>(k)]; };
+  const auto distance = [&](int k) { return (position - Position(at(k))).squaredNorm(); };
+  const int last = static_cast<int>(points_.size()) - 1;
+  const auto from = static_cast<int>(std::clamp(std::round(hint / spacing_), 0.0, static_cast<double>(last)));
+  const int k = NearestSample(distance, from, 0, last);
+  const RoutePoint& point = at(k);
+  const auto [ahead, left] = OffsetFrom(Position(point), point.psi, position);
   // On a curve, ahead of the sample, the course advances by less or more than the position does.
-  const bool inside = k > 0 && k + 1 < points_.size();
+  const bool inside = k > 0 && k < last;
   const double stretch = inside ? std::max(1.0 - point.curvature * left, 0.1) : 1.0;
-  const double s = static_cast<double>(k) * spacing_ + along.dot(d) / stretch;
+  const double s = static_cast<double>(k) * spacing_ + ahead / stretch;
   const RoutePoint foot = At(s);
-  const Eigen::Vector2d from_foot = position - Position(foot);
-  return {.s = s, .lateral = std::cos(foot.psi) * from_foot.y() - std::sin(foot.psi) * from_foot.x()};
+  return {.s = s, .lateral = OffsetFrom(Position(foot), foot.psi, position).left};
 }
 
 RouteProjection RoadProfile::Find(const Eigen::Vector2d& position, double psi) const {

@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include "control/road/projection.hpp"
+
 namespace control {
 namespace {
 
@@ -284,10 +286,8 @@ RouteProjection Route::Project(const Vector2d& position, std::optional<double> h
   RouteProjection result{i * spacing, 0.0};
   for (int iteration = 0; iteration < 100; ++iteration) {
     const RoutePoint point = At(result.s);
-    const Vector2d tangent(std::cos(point.psi), std::sin(point.psi));
-    const Vector2d offset = position - Vector2d(point.X, point.Y);
-    const double ahead = offset.dot(tangent);
-    result.lateral = tangent.x() * offset.y() - tangent.y() * offset.x();
+    const auto [ahead, left] = OffsetFrom(Position(point), point.psi, position);
+    result.lateral = left;
     if (std::abs(ahead) < 1e-10) break;
     (ahead > 0.0 ? low : high) = result.s;
     const double newton = result.s + ahead / std::max(0.1, 1.0 - point.curvature * result.lateral);

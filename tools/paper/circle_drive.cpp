@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "control/road/projection.hpp"
 #include "tools/drive/closed_loop.hpp"
 
 namespace tools {
@@ -20,10 +21,10 @@ CircleOutcome Drive(const CircleDrive& drive) {
   sim::Scenario scenario(road.route, road.road);
   scenario.PlaceVehicle(0.0, drive.speed);
   const control::RoutePoint at = road.route.At(kObstacleAfter * drive.speed);
-  const double lateral = drive.shift - kCircleObstacleRadius;
+  const Eigen::Vector2d centre = control::Beside(at, drive.shift - kCircleObstacleRadius);
   scenario.obstacles = {{.id = 1,
-                         .X = at.X - lateral * std::sin(at.psi),
-                         .Y = at.Y + lateral * std::cos(at.psi),
+                         .X = centre.x(),
+                         .Y = centre.y(),
                          .r_x = kCircleObstacleRadius,
                          .r_y = kCircleObstacleRadius,
                          .side = control::PassingSide::kLeft}};

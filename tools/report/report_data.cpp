@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "control/road/projection.hpp"
+
 namespace tools {
 namespace {
 
@@ -114,8 +116,9 @@ ordered_json RoadData(const config::RouteFile& road) {
     const auto steps = static_cast<int>(std::ceil(road.route.length() / kSpacing));
     for (int i = 0; i <= steps; ++i) {
       const control::RoutePoint at = road.route.At(std::min(i * kSpacing, road.route.length()));
-      points.X.push_back(Rounded(at.X - lateral * std::sin(at.psi), 2));
-      points.Y.push_back(Rounded(at.Y + lateral * std::cos(at.psi), 2));
+      const Eigen::Vector2d beside = control::Beside(at, lateral);
+      points.X.push_back(Rounded(beside.x(), 2));
+      points.Y.push_back(Rounded(beside.y(), 2));
     }
     return ordered_json{{"X", points.X}, {"Y", points.Y}};
   };

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "control/road/projection.hpp"
 #include "tools/scenarios/random.hpp"
 
 namespace tools {
@@ -85,9 +86,10 @@ Eigen::Vector2d DrawVelocity(Random& random, double speed) {
 control::Obstacle DrawObstacle(Random& random, const control::Route& route, double speed, double at) {
   const control::RoutePoint point = route.At(at * speed);
   const double lateral = random.Uniform(-2.2, 2.2);
+  const Eigen::Vector2d centre = control::Beside(point, lateral);
   control::Obstacle obstacle{
-      .X = point.X - lateral * std::sin(point.psi),
-      .Y = point.Y + lateral * std::cos(point.psi),
+      .X = centre.x(),
+      .Y = centre.y(),
       .r_x = random.Uniform(0.5, 1.5),
       .r_y = random.Uniform(0.5, 1.5),
       .heading = random.Uniform(-0.5 * std::numbers::pi, 0.5 * std::numbers::pi),

@@ -1,0 +1,44 @@
+// The nearest-point search along a sampled path, and points beside a route.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "control/road/route.hpp"
+
+namespace control {
+
+// The sample that is reached from `from` without passing a further one, first forwards, then backwards, among
+// first..last. `distance(k)` of sample k, in any measure that grows with it.
+template <typename Distance>
+[[nodiscard]] int NearestSample(const Distance& distance, int from, int first, int last) {
+  int k = from;
+  while (k < last && distance(k + 1) < distance(k)) ++k;
+  while (k > first && distance(k - 1) < distance(k)) --k;
+  return k;
+}
+
+// A position seen from a point of a path [m].
+struct PathOffset {
+  double ahead = 0.0;
+  double left = 0.0;
+};
+
+// `psi`: heading of the path at `point` [rad].
+[[nodiscard]] inline PathOffset OffsetFrom(const Eigen::Vector2d& point, double psi,
+                                           const Eigen::Vector2d& position) {
+  const Eigen::Vector2d along(std::cos(psi), std::sin(psi));
+  const Eigen::Vector2d d = position - point;
+  return {.ahead = along.dot(d), .left = along.x() * d.y() - along.y() * d.x()};
+}
+
+[[nodiscard]] inline Eigen::Vector2d Position(const RoutePoint& point) {
+  return {point.X, point.Y};
+}
+
+// The point `lateral` [m] beside the route, left positive.
+[[nodiscard]] inline Eigen::Vector2d Beside(const RoutePoint& point, double lateral) {
+  return {point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi)};
+}
+
+}  // namespace control
