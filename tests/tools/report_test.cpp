@@ -1,4 +1,4 @@
-#include "tools/commands/report.hpp"
+#include "tools/report/report.hpp"
 
 #include <fstream>
 #include <gmock/gmock.h>
@@ -9,6 +9,7 @@
 
 #include "tests/support/temp_dir.hpp"
 #include "tools/commands/run.hpp"
+#include "tools/drive/drive_file.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "tools/scenarios/scenario_seed.hpp"
 #include "tools/sweep/drive_sweep.hpp"
 #include "tools/sweep/merge_parts.hpp"
-#include "tools/sweep/sweep_config.hpp"
+#include "tools/drive/sweep_config.hpp"
 
 namespace {
 

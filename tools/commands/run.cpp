@@ -12,12 +12,13 @@
 #include "can/candump_log.hpp"
 #include "config/text_file.hpp"
 #include "tools/bench/qp_instance.hpp"
-#include "tools/commands/report.hpp"
 #include "tools/drive/closed_loop.hpp"
+#include "tools/drive/drive_file.hpp"
 #include "tools/drive/scenario_config.hpp"
+#include "tools/drive/sweep_config.hpp"
 #include "tools/io/write_file.hpp"
+#include "tools/report/report.hpp"
 #include "tools/scenarios/random_scenario.hpp"
-#include "tools/sweep/sweep_config.hpp"
 
 namespace tools {
 namespace {

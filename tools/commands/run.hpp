@@ -16,7 +16,7 @@ struct RunOptions {
   std::optional<std::uint64_t> sweep_seed;  // of a scenario of a sweep (tools/scenarios/random_scenario.hpp)
   ScenarioRanges ranges;                    // of that sweep
   std::filesystem::path config;  // of the daemon; empty: the one that the scenario names, or that of sweeps
-  std::string controller;        // empty: the configuration's; of a sweep's scenario: lpv
+  std::string controller;        // empty: the configuration's; of a sweep's scenario: lpv-affine
   std::filesystem::path log;     // candump log of every frame; empty: none
   std::filesystem::path out;  // folder for candump.log, summary.json, drive.toml and report.html; empty: none
   std::filesystem::path

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/commands/report.hpp"
 #include "tools/io/write_file.hpp"
 #include "tools/paper/paper_result.hpp"
+#include "tools/report/report.hpp"
 
 namespace tools {
 

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/commands/report.hpp"
 #include "tools/io/write_file.hpp"
+#include "tools/report/report.hpp"
 #include "tools/sweep/drive_sweep.hpp"
 #include "tools/sweep/merge_parts.hpp"
 

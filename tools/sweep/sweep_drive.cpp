@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "tools/drive/drive_figures.hpp"
-#include "tools/sweep/sweep_config.hpp"
+#include "tools/drive/sweep_config.hpp"
 
 namespace tools {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "loop/assembly.hpp"
 #include "tools/drive/drive_record.hpp"
+#include "tools/drive/sweep_config.hpp"
 #include "tools/report/report_data.hpp"
-#include "tools/sweep/sweep_config.hpp"
 #include "tools/sweep/sweep_result.hpp"
 
 namespace tools {

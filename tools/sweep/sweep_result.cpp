@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/percentile.hpp"
-#include "tools/sweep/sweep_config.hpp"
+#include "tools/drive/sweep_config.hpp"
 
 namespace tools {
 namespace {

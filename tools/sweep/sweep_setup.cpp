@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 #include <stdexcept>
 
-#include "tools/sweep/sweep_config.hpp"
+#include "tools/drive/sweep_config.hpp"
 
 namespace tools {
 

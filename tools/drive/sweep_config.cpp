@@ -1,4 +1,4 @@
-#include "tools/sweep/sweep_config.hpp"
+#include "tools/drive/sweep_config.hpp"
 
 #include <algorithm>
 

@@ -1,80 +1,24 @@
-#include "tools/commands/report.hpp"
+#include "tools/report/drive_page.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "can/candump_log.hpp"
 #include "config/text_file.hpp"
-#include "config/toml_table.hpp"
 #include "loop/assembly.hpp"
-#include "sim/scenario.hpp"
+#include "tools/drive/drive_file.hpp"
 #include "tools/drive/drive_record.hpp"
-#include "tools/io/write_file.hpp"
 #include "tools/report/report_data.hpp"
-#include "tools/report/report_page.hpp"
-#include "tools/scenarios/random_scenario.hpp"
-#include "tools/scenarios/scenario_seed.hpp"
-#include "tools/sweep/sweep_config.hpp"
 
 namespace tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json ParseJson(const std::filesystem::path& file) {
-  try {
-    return ordered_json::parse(config::ReadTextFile(file));
-  } catch (const ordered_json::parse_error& error) {
-    throw std::runtime_error(config::PlaceName(file) + ": " + config::Printable(error.what(), 200));
-  }
-}
-
-struct DriveFile {
-  sim::Scenario scenario;
-  loop::Config config;
-  config::RouteFile road;
-};
-
-DriveFile LoadSweepDrive(const config::TomlTable& table) {
-  const auto seed =
-      static_cast<std::uint64_t>(table.Number("sweep_seed", {0.0, static_cast<double>(kSeedEnd - 1)}));
-  const auto interval = [&](const char* key) {
-    const std::vector<double> ends = table.Numbers(key, 2);
-    return Interval{.low = ends[0], .high = ends[1]};
-  };
-  const ScenarioRanges ranges{.speed = interval("speed"), .mu = interval("mu")};
-  const std::string controller = table.Text("controller");
-  table.RefuseUnknownKeys();
-  try {
-    CheckRanges(ranges);
-    const RandomScenario drawn = DrawScenario(seed, ranges);
-    return {.scenario = drawn.scenario, .config = ConfigFor(controller, ranges), .road = drawn.route};
-  } catch (const std::invalid_argument& error) {
-    throw table.Error("sweep_seed", error.what());
-  }
-}
-
-DriveFile LoadDriveFile(const std::filesystem::path& file) {
-  const config::TomlTable table = config::TomlTable::Read(file);
-  if (table.Has("sweep_seed")) return LoadSweepDrive(table);
-  const sim::Scenario scenario = sim::LoadScenario(table.Path("scenario"));
-  const loop::Config config = loop::LoadConfig(table.Path("config"));
-  DriveFile drive{.scenario = scenario, .config = config, .road = config::LoadRoute(config.route)};
-  if (table.Has("controller")) {
-    try {
-      loop::SelectController(drive.config, table.Text("controller"));
-    } catch (const std::invalid_argument& error) {
-      throw table.Error("controller", error.what());
-    }
-  }
-  table.RefuseUnknownKeys();
-  return drive;
-}
 
 DriveRecord ReadLog(const std::filesystem::path& file, const bus::VehicleBus& bus, double t_s) {
   std::ifstream log = config::OpenTextFile(file);
@@ -149,6 +93,16 @@ ordered_json FansSection(const DriveRecord& record, int horizon) {
       {"fans", fans}};
 }
 
+}  // namespace
+
+ordered_json ParseJson(const std::filesystem::path& file) {
+  try {
+    return ordered_json::parse(config::ReadTextFile(file));
+  } catch (const ordered_json::parse_error& error) {
+    throw std::runtime_error(config::PlaceName(file) + ": " + config::Printable(error.what(), 200));
+  }
+}
+
 ordered_json DrivePage(const std::filesystem::path& run_dir) {
   const DriveFile drive = LoadDriveFile(run_dir / "drive.toml");
   const bus::VehicleBus bus = loop::OpenBus(drive.config);
@@ -185,40 +139,6 @@ ordered_json DrivePage(const std::filesystem::path& run_dir) {
          DriveData(record, {.name = controller, .road_key = "road", .footprint = drive.scenario.footprint},
                    drive.config, drive.road)}}},
       {"sections", sections}};
-}
-
-}  // namespace
-
-void Report(const ReportOptions& options) {
-  const std::filesystem::path data = options.run_dir / "report.json";
-  const ordered_json page = std::filesystem::exists(data) ? ParseJson(data) : DrivePage(options.run_dir);
-  if (!page.is_object() || !page.contains("title") || !page["title"].is_string()) {
-    throw std::runtime_error(config::PlaceName(data) + ": holds no data of a page");
-  }
-  WriteFile(options.output, ReportPage(page["title"].get<std::string>(), page.dump()));
-}
-
-void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem::path& scenario,
-                    const std::filesystem::path& config, const std::string& controller) {
-  const auto quoted = [](const std::string& text) { return ordered_json(text).dump(); };  // as in TOML
-  const auto path = [&](const std::filesystem::path& file) {
-    return quoted(std::filesystem::absolute(file).lexically_normal().string());
-  };
-  std::string text = "# What this drive was driven with.\n";
-  text += "scenario = " + path(scenario) + "\nconfig = " + path(config) +
-          "\ncontroller = " + quoted(controller) + "\n";
-  WriteFile(run_dir / "drive.toml", text);
-}
-
-void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed,
-                         const ScenarioRanges& ranges, const std::string& controller) {
-  const auto interval = [](const Interval& range) {
-    return ordered_json{range.low, range.high}.dump();  // as in TOML
-  };
-  WriteFile(
-      run_dir / "drive.toml",
-      fmt::format("# A scenario of a sweep.\nsweep_seed = {}\nspeed = {}\nmu = {}\ncontroller = \"{}\"\n",
-                  seed, interval(ranges.speed), interval(ranges.mu), controller));
 }
 
 }  // namespace tools

@@ -1,0 +1,53 @@
+#include <iostream>
+#include <memory>
+
+#include "tools/bench/bench_qp.hpp"
+#include "tools/bench/bench_step.hpp"
+#include "tools/commands/command.hpp"
+
+namespace tools {
+namespace {
+
+Command AddBenchStep(CLI::App& bench) {
+  const auto options = std::make_shared<BenchStepOptions>();
+  options->scenario = Scenarios("whole_drive/scenario.toml");
+  CLI::App* command = bench.add_subcommand("step", "the whole control step along a drive");
+  command->add_option("--scenario", options->scenario, "scenario in TOML")->capture_default_str();
+  command->add_option("--config", options->config, "daemon's configuration, instead of the scenario's");
+  command->add_option("--controller", options->controller,
+                      ControllerList() + ", instead of the configuration's");
+  command->add_option("--horizon", options->horizons, "N, one or several")->capture_default_str();
+  command->add_option("--repeat", options->repeat, "drives per horizon")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "figures as JSON");
+  return {.app = command, .run = [options] {
+            BenchStep(*options, std::cout);
+            return 0;
+          }};
+}
+
+Command AddBenchQp(CLI::App& bench) {
+  const auto options = std::make_shared<BenchQpOptions>();
+  CLI::App* command = bench.add_subcommand("qp", "the QP solver on recorded problems");
+  command->add_option("DIR", options->folder, "folder with problems *.qp; required");
+  command->add_option("--repeat", options->repeat, "solves of each problem")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "figures as JSON");
+  return {.app = command, .run = [command, options] {
+            RequireOption(*command, "DIR");
+            BenchQp(*options, std::cout);
+            return 0;
+          }};
+}
+
+}  // namespace
+
+std::vector<Command> AddBench(CLI::App& program) {
+  CLI::App* bench = program.add_subcommand("bench", "time parts of the controller")->require_subcommand(0, 1);
+  const auto missing = []() -> int { throw CLI::RequiredError("a command: bench step or bench qp"); };
+  return {AddBenchStep(*bench), AddBenchQp(*bench), {.app = bench, .run = missing}};
+}
+
+}  // namespace tools

@@ -1,0 +1,37 @@
+#include <iostream>
+#include <memory>
+
+#include "tools/commands/command.hpp"
+#include "tools/commands/run.hpp"
+
+namespace tools {
+
+Command AddRun(CLI::App& program) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "drive a scenario in memory, without a bus");
+  CLI::Option* scenario = command->add_option("--scenario", options->scenario, "scenario in TOML");
+  CLI::Option* sweep_seed =
+      command->add_option("--sweep-seed", options->sweep_seed, "instead: seed of a scenario of a sweep")
+          ->check(Seeds())
+          ->excludes(scenario);
+  AddRanges(*command, options->ranges);
+  for (const char* range : {"--speed", "--mu"}) command->get_option(range)->needs(sweep_seed);
+  command->add_option("--config", options->config, "daemon's configuration, instead of the scenario's")
+      ->excludes(sweep_seed);
+  command->add_option("--controller", options->controller,
+                      ControllerList() + ", instead of the configuration's");
+  command->add_option("--log", options->log, "write every frame to this candump log");
+  command
+      ->add_option("--out", options->out,
+                   "write candump.log, summary.json, drive.toml and report.html into this folder")
+      ->excludes("--log");
+  command->add_option("--record-qp", options->record_qp,
+                      "write every quadratic problem of the controller into this folder, for bench qp");
+  command->add_flag("--json", options->json, "summary as JSON");
+  return {.app = command, .run = [command, options] {
+            if (!options->sweep_seed) RequireOption(*command, "--scenario");
+            return Run(*options, std::cout);
+          }};
+}
+
+}  // namespace tools

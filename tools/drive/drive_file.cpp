@@ -1,0 +1,81 @@
+#include "tools/drive/drive_file.hpp"
+
+#include <fmt/format.h>
+#include <stdexcept>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "config/toml_table.hpp"
+#include "tools/drive/sweep_config.hpp"
+#include "tools/io/write_file.hpp"
+#include "tools/scenarios/random_scenario.hpp"
+#include "tools/scenarios/scenario_seed.hpp"
+
+namespace tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+DriveFile LoadSweepDrive(const config::TomlTable& table) {
+  const auto seed =
+      static_cast<std::uint64_t>(table.Number("sweep_seed", {0.0, static_cast<double>(kSeedEnd - 1)}));
+  const auto interval = [&](const char* key) {
+    const std::vector<double> ends = table.Numbers(key, 2);
+    return Interval{.low = ends[0], .high = ends[1]};
+  };
+  const ScenarioRanges ranges{.speed = interval("speed"), .mu = interval("mu")};
+  const std::string controller = table.Text("controller");
+  table.RefuseUnknownKeys();
+  try {
+    CheckRanges(ranges);
+    const RandomScenario drawn = DrawScenario(seed, ranges);
+    return {.scenario = drawn.scenario, .config = ConfigFor(controller, ranges), .road = drawn.route};
+  } catch (const std::invalid_argument& error) {
+    throw table.Error("sweep_seed", error.what());
+  }
+}
+
+}  // namespace
+
+DriveFile LoadDriveFile(const std::filesystem::path& file) {
+  const config::TomlTable table = config::TomlTable::Read(file);
+  if (table.Has("sweep_seed")) return LoadSweepDrive(table);
+  const sim::Scenario scenario = sim::LoadScenario(table.Path("scenario"));
+  const loop::Config config = loop::LoadConfig(table.Path("config"));
+  DriveFile drive{.scenario = scenario, .config = config, .road = config::LoadRoute(config.route)};
+  if (table.Has("controller")) {
+    try {
+      loop::SelectController(drive.config, table.Text("controller"));
+    } catch (const std::invalid_argument& error) {
+      throw table.Error("controller", error.what());
+    }
+  }
+  table.RefuseUnknownKeys();
+  return drive;
+}
+
+void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem::path& scenario,
+                    const std::filesystem::path& config, const std::string& controller) {
+  const auto quoted = [](const std::string& text) { return ordered_json(text).dump(); };  // as in TOML
+  const auto path = [&](const std::filesystem::path& file) {
+    return quoted(std::filesystem::absolute(file).lexically_normal().string());
+  };
+  std::string text = "# What this drive was driven with.\n";
+  text += "scenario = " + path(scenario) + "\nconfig = " + path(config) +
+          "\ncontroller = " + quoted(controller) + "\n";
+  WriteFile(run_dir / "drive.toml", text);
+}
+
+void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed,
+                         const ScenarioRanges& ranges, const std::string& controller) {
+  const auto interval = [](const Interval& range) {
+    return ordered_json{range.low, range.high}.dump();  // as in TOML
+  };
+  WriteFile(
+      run_dir / "drive.toml",
+      fmt::format("# A scenario of a sweep.\nsweep_seed = {}\nspeed = {}\nmu = {}\ncontroller = \"{}\"\n",
+                  seed, interval(ranges.speed), interval(ranges.mu), controller));
+}
+
+}  // namespace tools

@@ -1,0 +1,37 @@
+// drive.toml: what a recorded drive was driven with, so that it can be shown and driven again.
+//
+//   scenario = "…", config = "…"        files, relative paths relative to this one
+//   controller = "…"                    if it was not the configuration's
+//
+// or, of a scenario of a sweep,
+//
+//   sweep_seed = …, speed = [LO, HI], mu = [LO, HI], controller = "…"
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "config/route_file.hpp"
+#include "loop/config.hpp"
+#include "sim/scenario.hpp"
+#include "tools/scenarios/scenario_ranges.hpp"
+
+namespace tools {
+
+struct DriveFile {
+  sim::Scenario scenario;
+  loop::Config config;
+  config::RouteFile road;
+};
+
+// Throws config::ConfigError with file, line and key: the file, or one that it names, is missing or wrong.
+[[nodiscard]] DriveFile LoadDriveFile(const std::filesystem::path& file);
+
+// Write drive.toml into the folder of a run. Throw std::runtime_error: it cannot be written.
+void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem::path& scenario,
+                    const std::filesystem::path& config, const std::string& controller);
+void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed,
+                         const ScenarioRanges& ranges, const std::string& controller);
+
+}  // namespace tools

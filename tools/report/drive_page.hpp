@@ -1,0 +1,16 @@
+// The data of the page about a single drive (report_page.hpp).
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace tools {
+
+// Of a folder with candump.log, drive.toml and, if it is there, summary.json. Throws one line: a file is missing or wrong.
+[[nodiscard]] nlohmann::ordered_json DrivePage(const std::filesystem::path& run_dir);
+
+// A JSON file. Throws std::runtime_error with the file and the place of the error.
+[[nodiscard]] nlohmann::ordered_json ParseJson(const std::filesystem::path& file);
+
+}  // namespace tools
