@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 #include <string>
 
+#include "bus/names.hpp"
 #include "daemon/log.hpp"
 #include "loop/violation_text.hpp"
 
@@ -24,19 +25,19 @@ bool EventCount::Tell(std::uint64_t total, base::Time now, std::uint64_t& news) 
 void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base::Time now) {
   const loop::CycleReport& report = loop.report();
   const bool faulty = report.fault != bus::FaultCode::kNone;
-  SetLogFields({.mode = safety::Name(report.mode),
+  SetLogFields({.mode = Name(report.mode),
                 .fault = faulty ? Name(report.fault) : "",
                 .cause = safety::Name(report.cause)});
   if (report.mode != report.previous_mode) {
     const bool bad = report.mode == bus::Mode::kSafeStop || report.mode == bus::Mode::kFault;
     spdlog::log(bad ? spdlog::level::warn : spdlog::level::info, "mode {} -> {}: {}",
-                safety::Name(report.previous_mode), safety::Name(report.mode), safety::Name(report.cause));
+                Name(report.previous_mode), Name(report.mode), safety::Name(report.cause));
     told_fault_ = report.fault;  // most often it is the cause
   } else if (!faulty) {
     told_fault_ = report.fault;
   } else if (report.fault != told_fault_ && now - last_fault_ >= 1s) {
     spdlog::log(bus::Commands(report.mode) ? spdlog::level::warn : spdlog::level::info, "in {}: {}",
-                safety::Name(report.mode), FaultText(report));
+                Name(report.mode), FaultText(report));
     told_fault_ = report.fault;
     last_fault_ = now;
   }
@@ -126,44 +127,6 @@ std::string FaultText(const loop::CycleReport& report) {
                         reason ? fmt::format("refused: {}", Name(*reason)) : "missing");
   }
   return text;
-}
-
-std::string_view Name(bus::FaultCode fault) {
-  switch (fault) {
-    case bus::FaultCode::kNone:
-      return "no fault";
-    case bus::FaultCode::kStateStale:
-      return "vehicle state stale";
-    case bus::FaultCode::kStateInvalid:
-      return "vehicle state refused";
-    case bus::FaultCode::kObstaclesStale:
-      return "obstacles stale";
-    case bus::FaultCode::kDriverRequestStale:
-      return "driver request stale";
-    case bus::FaultCode::kSolverInfeasible:
-      return "problem infeasible";
-    case bus::FaultCode::kSolverIterationLimit:
-      return "solver at its iteration limit";
-    case bus::FaultCode::kSolverNumericalFailure:
-      return "solver failed numerically";
-    case bus::FaultCode::kPlanExhausted:
-      return "plan exhausted";
-    case bus::FaultCode::kRouteEnd:
-      return "end of route";
-    case bus::FaultCode::kOffRoute:
-      return "not on the route or too slow";
-    case bus::FaultCode::kBusDown:
-      return "bus down";
-    case bus::FaultCode::kInternalError:
-      return "internal error";
-    case bus::FaultCode::kStateLate:
-      return "no new vehicle state";
-    case bus::FaultCode::kDeadlineMissed:
-      return "deadline missed";
-    case bus::FaultCode::kPlanRejected:
-      return "plan rejected";
-  }
-  return "?";
 }
 
 }  // namespace lpvmpcd

@@ -46,9 +46,7 @@ class EventLog {
   base::Time last_constraint_{};
 };
 
-// Text of a fault code for people.
-[[nodiscard]] std::string_view Name(bus::FaultCode fault);
-// The same of the present fault, with the message that ails, if one does.
+// Text of the present fault, with the message that ails, if one does.
 [[nodiscard]] std::string FaultText(const loop::CycleReport& report);
 
 }  // namespace lpvmpcd

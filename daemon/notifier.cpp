@@ -7,6 +7,7 @@
 #include <systemd/sd-daemon.h>
 
 #include "base/clock.hpp"
+#include "bus/names.hpp"
 #include "daemon/event_log.hpp"
 
 namespace lpvmpcd {
@@ -51,11 +52,11 @@ void Notifier::Cycle(const loop::CycleReport& report, const base::Latencies& lat
     return fmt::format("p99 {:.2f} ms, max {:.2f} ms", base::Milliseconds(histogram.Percentile(0.99)),
                        base::Milliseconds(histogram.max()));
   };
-  sd_notify(
-      0, fmt::format("STATUS={}; {}; {} cycles, {} deadline misses; latency {}; step {}{}{}",
-                     safety::Name(mode_), FaultText(report), report.cycles, report.deadline_misses,
-                     figures(latencies.cycle), figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
-             .c_str());
+  sd_notify(0,
+            fmt::format("STATUS={}; {}; {} cycles, {} deadline misses; latency {}; step {}{}{}", Name(mode_),
+                        FaultText(report), report.cycles, report.deadline_misses, figures(latencies.cycle),
+                        figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
+                .c_str());
 }
 
 }  // namespace lpvmpcd

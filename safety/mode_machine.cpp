@@ -7,8 +7,8 @@ namespace {
 
 // What cannot be done without.
 std::optional<Cause> HardFault(const ModeInputs& inputs) {
-  const bool hard = !inputs.bus_up || !inputs.state_fresh;
-  if (hard) return InputFault(inputs);
+  const auto fault = InputFault(inputs);
+  if (fault && IsHard(*fault)) return fault;
   if (inputs.route_left <= 0) return Cause::kRouteEnd;
   if (!inputs.plan_usable) return Cause::kPlanExhausted;
   return std::nullopt;
@@ -88,7 +88,7 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSetti
         enter(bus::Mode::kFault, SilenceCause(inputs));
       }
       break;
-    case bus::Mode::kFault:
+    default:  // kFault
       if (inputs.Healthy() && !inputs.engage) {
         enter(bus::Mode::kStandby, Cause::kRecovered);
       }
@@ -102,9 +102,9 @@ bool RisingEdge(const ModeState& state, const ModeInputs& inputs) {
 }
 
 bool EngagementRequested(const ModeState& state, const ModeInputs& inputs) {
-  return state.mode == bus::Mode::kStandby && RisingEdge(state, inputs) && inputs.state_new &&
-         CountHealthy(state, inputs) == kHealthyCycles && inputs.near_route && inputs.route_left > 0 &&
-         !inputs.override_seen;
+  const bool asked = state.mode == bus::Mode::kStandby && RisingEdge(state, inputs) && inputs.state_new;
+  const bool possible = inputs.near_route && inputs.route_left > 0 && !inputs.override_seen;
+  return asked && possible && CountHealthy(state, inputs) == kHealthyCycles;
 }
 
 std::optional<Cause> InputFault(const ModeInputs& inputs) {
@@ -118,109 +118,6 @@ std::optional<Cause> InputFault(const ModeInputs& inputs) {
 std::optional<Cause> PresentFault(const ModeInputs& inputs) {
   const auto fault = InputFault(inputs);
   return fault ? fault : inputs.plan_fault;
-}
-
-bus::FaultCode FaultOf(Cause cause) {
-  switch (cause) {
-    case Cause::kBusDown:
-      return bus::FaultCode::kBusDown;
-    case Cause::kStateStale:
-      return bus::FaultCode::kStateStale;
-    case Cause::kStateInvalid:
-      return bus::FaultCode::kStateInvalid;
-    case Cause::kObstaclesStale:
-      return bus::FaultCode::kObstaclesStale;
-    case Cause::kDriverRequestStale:
-      return bus::FaultCode::kDriverRequestStale;
-    case Cause::kRouteEnd:
-      return bus::FaultCode::kRouteEnd;
-    case Cause::kPlanExhausted:
-      return bus::FaultCode::kPlanExhausted;
-    case Cause::kStateLate:
-      return bus::FaultCode::kStateLate;
-    case Cause::kSolverFailed:
-      return bus::FaultCode::kSolverNumericalFailure;
-    case Cause::kDeadlineMissed:
-      return bus::FaultCode::kDeadlineMissed;
-    case Cause::kPlanRejected:
-      return bus::FaultCode::kPlanRejected;
-    case Cause::kSilent:
-    case Cause::kInternalError:
-      return bus::FaultCode::kInternalError;
-    case Cause::kStart:
-    case Cause::kInputsHealthy:
-    case Cause::kEngaged:
-    case Cause::kReleased:
-    case Cause::kOverride:
-    case Cause::kStandstill:
-    case Cause::kRecovered:
-      break;
-  }
-  return bus::FaultCode::kNone;
-}
-
-std::string_view Name(Cause cause) {
-  switch (cause) {
-    case Cause::kStart:
-      return "start";
-    case Cause::kInputsHealthy:
-      return "inputs healthy";
-    case Cause::kEngaged:
-      return "engaged";
-    case Cause::kReleased:
-      return "request withdrawn";
-    case Cause::kOverride:
-      return "driver override";
-    case Cause::kStandstill:
-      return "standstill";
-    case Cause::kRecovered:
-      return "recovered";
-    case Cause::kBusDown:
-      return "bus down";
-    case Cause::kStateStale:
-      return "vehicle state stale";
-    case Cause::kStateInvalid:
-      return "vehicle state refused";
-    case Cause::kObstaclesStale:
-      return "obstacles stale";
-    case Cause::kDriverRequestStale:
-      return "driver request stale";
-    case Cause::kRouteEnd:
-      return "end of route";
-    case Cause::kPlanExhausted:
-      return "plan exhausted";
-    case Cause::kSilent:
-      return "no command sent for too long";
-    case Cause::kInternalError:
-      return "internal error";
-    case Cause::kStateLate:
-      return "no new vehicle state";
-    case Cause::kSolverFailed:
-      return "problem not solved";
-    case Cause::kDeadlineMissed:
-      return "deadline missed";
-    case Cause::kPlanRejected:
-      return "plan rejected";
-  }
-  return "?";
-}
-
-std::string_view Name(bus::Mode mode) {
-  switch (mode) {
-    case bus::Mode::kInit:
-      return "Init";
-    case bus::Mode::kStandby:
-      return "Standby";
-    case bus::Mode::kActive:
-      return "Active";
-    case bus::Mode::kDegraded:
-      return "Degraded";
-    case bus::Mode::kSafeStop:
-      return "SafeStop";
-    case bus::Mode::kFault:
-      return "Fault";
-  }
-  return "?";
 }
 
 }  // namespace safety

@@ -20,9 +20,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "bus/messages.hpp"
+#include "safety/fault.hpp"
 
 namespace safety {
 
@@ -58,12 +58,6 @@ struct ModeInputs {
   }
 };
 
-// Why the present mode was entered.
-using Cause = bus::ModeCause;
-[[nodiscard]] std::string_view Name(Cause cause);
-[[nodiscard]] std::string_view Name(bus::Mode mode);
-// kNone for a cause that is an event and no fault.
-[[nodiscard]] bus::FaultCode FaultOf(Cause cause);
 // What is wrong with the inputs, the gravest first: the reason of a stop, or why it would not engage.
 [[nodiscard]] std::optional<Cause> InputFault(const ModeInputs& inputs);
 // The same, or else why there is no new plan.

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/vehicle_bus.hpp"
+#include "bus/names.hpp"
 #include "can/candump_log.hpp"
 #include "safety/mode_machine.hpp"
 #include "tests/support/process.hpp"
@@ -100,7 +101,7 @@ class FallbackInACurve : public testing::Test {
   std::size_t First(bus::Mode mode, std::size_t begin = 0) const {
     const auto found = std::find_if(cycles_.begin() + static_cast<std::ptrdiff_t>(begin), cycles_.end(),
                                     [mode](const Cycle& c) { return c.steering.mode == mode; });
-    EXPECT_NE(found, cycles_.end()) << safety::Name(mode);
+    EXPECT_NE(found, cycles_.end()) << Name(mode);
     return static_cast<std::size_t>(found - cycles_.begin());
   }
 

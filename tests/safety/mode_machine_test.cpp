@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bus/names.hpp"
+
 namespace safety {
 namespace {
 
@@ -282,6 +284,24 @@ TEST(ModeMachine, OnlyActiveDegradedAndSafeStopCommand) {
     EXPECT_FALSE(bus::Commands(mode));
     EXPECT_FALSE(bus::Drives(mode));
   }
+}
+
+TEST(ModeMachine, InputsThatWereHealthyForTooShortDoNotEngage) {
+  ModeState standby = In(bus::Mode::kStandby, true);
+  standby.healthy_cycles = kHealthyCycles - 1;
+  EXPECT_TRUE(EngagementRequested(standby, Well()));
+  standby.healthy_cycles = kHealthyCycles - 2;
+  EXPECT_FALSE(EngagementRequested(standby, Well()));
+}
+
+TEST(ModeMachine, OneStepOfRouteLeftIsEnoughToEngageAndToDriveOn) {
+  ModeInputs inputs = Well();
+  inputs.route_left = 1;
+  EXPECT_EQ(Next(In(bus::Mode::kStandby, true), inputs).mode, bus::Mode::kActive);
+  EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).mode, bus::Mode::kActive);
+  inputs.route_left = 0;
+  EXPECT_FALSE(EngagementRequested(In(bus::Mode::kStandby, true), inputs));
+  EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).cause, Cause::kRouteEnd);
 }
 
 TEST(ModeMachine, FaultsHaveACodeAndEventsHaveNone) {

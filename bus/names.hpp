@@ -1,0 +1,13 @@
+// Names of the bus's enumerations for people: in logs and reports.
+#pragma once
+
+#include <string_view>
+
+#include "bus/messages.hpp"
+
+namespace bus {
+
+[[nodiscard]] std::string_view Name(Mode mode);
+[[nodiscard]] std::string_view Name(FaultCode fault);
+
+}  // namespace bus
