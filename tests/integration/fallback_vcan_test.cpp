@@ -11,8 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bus/vehicle_bus.hpp"
 #include "bus/names.hpp"
+#include "bus/vehicle_bus.hpp"
 #include "can/candump_log.hpp"
 #include "safety/mode_machine.hpp"
 #include "tests/support/process.hpp"

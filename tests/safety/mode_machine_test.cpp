@@ -286,6 +286,14 @@ TEST(ModeMachine, OnlyActiveDegradedAndSafeStopCommand) {
   }
 }
 
+TEST(ModeMachine, EngagementIsRequestedInStandbyAlone) {
+  EXPECT_TRUE(EngagementRequested(In(bus::Mode::kStandby, true), Well()));
+  for (const bus::Mode mode : {bus::Mode::kInit, bus::Mode::kActive, bus::Mode::kDegraded,
+                               bus::Mode::kSafeStop, bus::Mode::kFault}) {
+    EXPECT_FALSE(EngagementRequested(In(mode, true), Well())) << bus::Name(mode);
+  }
+}
+
 TEST(ModeMachine, InputsThatWereHealthyForTooShortDoNotEngage) {
   ModeState standby = In(bus::Mode::kStandby, true);
   standby.healthy_cycles = kHealthyCycles - 1;

@@ -11,11 +11,11 @@
 
 #include "config/text_file.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tools/drive/sweep_config.hpp"
 #include "tools/io/write_file.hpp"
 #include "tools/scenarios/scenario_seed.hpp"
 #include "tools/sweep/drive_sweep.hpp"
 #include "tools/sweep/merge_parts.hpp"
-#include "tools/drive/sweep_config.hpp"
 
 namespace {
 
