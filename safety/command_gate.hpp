@@ -38,7 +38,7 @@ class CommandGate {
   [[nodiscard]] bool Encode(const bus::HorizonHeader& header, can::Frame& out);
   [[nodiscard]] bool Encode(const bus::HorizonPoint& point, can::Frame& out);
 
-  // True for the frames that this daemon may put on the bus: its six messages, as standard data frames of the right
+  // True for the frames that this daemon may put on the bus: its seven messages, as standard data frames of the right
   // length, with the CRC that the gate gave them.
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
