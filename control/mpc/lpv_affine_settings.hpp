@@ -1,6 +1,8 @@
 // What lpv-affine, and the NMPC with the same problem, are asked to do: horizon, weights, bounds, margins.
 #pragma once
 
+#include <numbers>
+
 #include "control/qp/ocp_qp_solver.hpp"
 #include "control/vehicle/footprint.hpp"
 #include "control/vehicle/types.hpp"
@@ -17,8 +19,8 @@ struct LpvAffineSettings {
   Input R{5.0, 0.2};        // of u − u_ref
   Input R_rate{2e3, 10.0};  // of Δu
 
-  Input u_min{-0.5, -6.0};
-  Input u_max{0.5, 2.0};
+  Input u_min{-34.0 * std::numbers::pi / 180.0, -6.0};
+  Input u_max{34.0 * std::numbers::pi / 180.0, 2.0};
   Input rate_max{0.03, 1.0};  // per step: 0.6 rad/s, 20 m/s³
   double upsilon_max = 60.0;  // [m/s]
 

@@ -66,6 +66,44 @@ TEST_F(ConfigTest, APlanOfLpvAffineKeepsItsOwnRatesWithinTheLimits) {
   EXPECT_EQ(limited.affine.u_min, limited.mpc.u_min);
 }
 
+TEST_F(ConfigTest, DefaultsOfTheSettingsAreThoseOfAFileThatGivesNone) {
+  const Config file = Load(kRoute);
+  const Config settings;
+  const auto same_limits = [](const auto& a, const auto& b) {
+    return a.horizon == b.horizon && a.t_s == b.t_s && a.Q == b.Q && a.R == b.R && a.u_min == b.u_min &&
+           a.u_max == b.u_max && a.rate_max == b.rate_max && a.obstacle_margin == b.obstacle_margin &&
+           a.trust_radius == b.trust_radius;
+  };
+  EXPECT_TRUE(same_limits(file.affine, settings.affine));
+  EXPECT_TRUE(same_limits(file.mpc, settings.mpc));
+  EXPECT_EQ(file.mpc.P, settings.mpc.P);
+  EXPECT_EQ(file.mpc.E_p, settings.mpc.E_p);
+  EXPECT_EQ(file.mpc.z_min, settings.mpc.z_min);
+  EXPECT_EQ(file.mpc.z_max, settings.mpc.z_max);
+  EXPECT_EQ(file.affine.R_rate, settings.affine.R_rate);
+  EXPECT_EQ(file.affine.terminal, settings.affine.terminal);
+  EXPECT_EQ(file.affine.mu, settings.affine.mu);
+  EXPECT_EQ(file.affine.friction_share, settings.affine.friction_share);
+  EXPECT_EQ(file.affine.road_margin, settings.affine.road_margin);
+  EXPECT_EQ(file.affine.stop_gap, settings.affine.stop_gap);
+  EXPECT_EQ(file.affine.footprint.half_width, settings.affine.footprint.half_width);
+  EXPECT_EQ(file.affine.trust_region, settings.affine.trust_region);  // that of mpc is the controller's
+  EXPECT_EQ(file.affine.adapt_trust_region, settings.affine.adapt_trust_region);
+  EXPECT_EQ(file.affine.iterations, settings.affine.iterations);
+  EXPECT_EQ(file.speed.lateral, settings.speed.lateral);
+  EXPECT_EQ(file.speed.acceleration, settings.speed.acceleration);
+  EXPECT_EQ(file.speed.deceleration, settings.speed.deceleration);
+  EXPECT_EQ(file.loop.period, settings.loop.period);
+  EXPECT_EQ(file.loop.deadline, settings.loop.deadline);
+  EXPECT_EQ(file.loop.command_delay, settings.loop.command_delay);
+  EXPECT_EQ(file.loop.limits.max_steering, settings.loop.limits.max_steering);
+  EXPECT_EQ(file.loop.limits.max_acceleration_step, settings.loop.limits.max_acceleration_step);
+  EXPECT_EQ(file.loop.modes.degraded_cycles, settings.loop.modes.degraded_cycles);
+  EXPECT_EQ(file.loop.stop_deceleration, settings.loop.stop_deceleration);
+  EXPECT_EQ(file.service.timeout, settings.service.timeout);
+  EXPECT_EQ(file.log_level, settings.log_level);
+}
+
 TEST_F(ConfigTest, TrustRegionOfLpvAffineIsAdaptiveFixedOrNone) {
   EXPECT_TRUE(Load(kRoute).affine.adapt_trust_region);
   const Config fixed = Load(kRoute + "[lpv_affine]\ntrust_region = \"fixed\"\n");
