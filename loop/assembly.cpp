@@ -8,18 +8,20 @@
 #include "config/text_file.hpp"
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "control/mpc/lpv_mpc.hpp"
+#include "control/mpc/timed_controller.hpp"
 #include "dbc/parser.hpp"
 
 namespace loop {
 
-std::unique_ptr<control::Controller> MakeController(const Config& config,
-                                                    const control::RoadProfile& course) {
+std::unique_ptr<control::Controller> MakeController(const Config& config, const Road& road) {
   switch (config.controller) {
     case ControllerKind::kLpvAffine:
-      return std::make_unique<control::LpvAffineMpc>(config.vehicle, course, config.affine);
+      return std::make_unique<control::LpvAffineMpc>(config.vehicle, road.by_progress, config.affine);
     case ControllerKind::kLpv:
     case ControllerKind::kLpvStandard:
-      return std::make_unique<control::LpvMpc>(config.vehicle, config.mpc);
+      return std::make_unique<control::TimedController>(
+          std::make_unique<control::LpvMpc>(config.vehicle, config.mpc), road.by_time,
+          road.by_progress.road());
     case ControllerKind::kNmpc:
     case ControllerKind::kNmpcAffine:
       break;
@@ -45,16 +47,16 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route,
     : bus_(OpenBus(config)),
       reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
       road_(route.road),
-      course_(route.route, route.road, config.speed),
-      controller_(make(config, course_)),
+      profile_(route.route, route.road, config.speed),
+      controller_(make(config, {.by_time = reference_, .by_progress = profile_})),
       check_({.vehicle = config.vehicle,
               .footprint = config.affine.footprint,
               .mu = config.affine.mu,
               .t_s = config.affine.t_s},
-             course_),
+             profile_),
       // The paper's controllers plan for a point with a coarser model: their plans would not pass.
       loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch),
-            IsAffine(config.controller) ? &check_ : nullptr) {
+            IsPapers(config.controller) ? nullptr : &check_) {
   if (reference_.size() <= HorizonOf(config)) {
     throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");
   }

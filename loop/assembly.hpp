@@ -19,13 +19,17 @@ namespace loop {
 // The bus of the configuration's DBC file, or the one built in. Throws as Assembly does.
 [[nodiscard]] bus::VehicleBus OpenBus(const Config& config);
 
-// Makes the controller that a configuration names. `course` outlives it.
-using ControllerMaker =
-    std::function<std::unique_ptr<control::Controller>(const Config&, const control::RoadProfile& course)>;
+// The route as the controllers need it.
+struct Road {
+  const control::TimeReference& by_time;    // of the paper's
+  const control::RoadProfile& by_progress;  // of the others
+};
+
+// Makes the controller that a configuration names. What `road` refers to outlives it.
+using ControllerMaker = std::function<std::unique_ptr<control::Controller>(const Config&, const Road& road)>;
 
 // Of those that a daemon drives by. Throws std::runtime_error if it is none of them.
-[[nodiscard]] std::unique_ptr<control::Controller> MakeController(const Config& config,
-                                                                  const control::RoadProfile& course);
+[[nodiscard]] std::unique_ptr<control::Controller> MakeController(const Config& config, const Road& road);
 
 class Assembly {
  public:
@@ -49,7 +53,7 @@ class Assembly {
   bus::VehicleBus bus_;
   control::TimeReference reference_;
   control::RoadBounds road_;
-  control::RoadProfile course_;
+  control::RoadProfile profile_;
   std::unique_ptr<control::Controller> controller_;
   control::PlanCheck check_;
   ControlLoop loop_;

@@ -9,14 +9,15 @@ void CommandSource::Observe(const VehicleState& state, bool commanding) {
 }
 
 safety::LimitResult CommandSource::Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,
-                                           const RouteTracker& tracker, const VehicleState& state) const {
+                                           const control::RouteMotion& motion,
+                                           const VehicleState& state) const {
   if (bus::Drives(mode)) {
     return limiter_.Limit(plan.At(step), applied_, plan.Age(step));
   }
   if (mode == bus::Mode::kSafeStop) {
     // The steering of the rest of the last plan, then along its path; never snapped to zero.
-    const double delta =
-        plan.Covers(step) ? plan.At(step)[control::kDelta] : tracker.StopSteering(applied_[control::kDelta]);
+    const double delta = plan.Covers(step) ? plan.At(step)[control::kDelta]
+                                           : stop_.Steering(motion, stop_offset_, applied_[control::kDelta]);
     return limiter_.Limit({delta, -stop_deceleration_}, applied_, 0);
   }
   return Measured(state);

@@ -73,10 +73,8 @@ void ReadLimits(const TomlTable& table, Config& config) {
 void Select(Config& config, ControllerKind kind) {
   config.controller = kind;
   config.mpc.trust_region = kind == ControllerKind::kLpv;
-  // The paper's model divides by the speed, and its reference does not wait for who is late.
-  const bool affine = IsAffine(kind);
-  config.loop.by_progress = affine;
-  config.loop.engage_min_speed = config.engage_min_speed.value_or(affine ? 0.0 : 3.0);
+  // The paper's model divides by the speed, and its reference does not wait for a vehicle that is late.
+  config.loop.engage_min_speed = config.engage_min_speed.value_or(IsPapers(kind) ? 3.0 : 0.0);
 }
 
 void ReadController(const TomlTable& table, Config& config) {
@@ -226,7 +224,7 @@ void SelectController(Config& config, const std::string& name) {
 }
 
 int HorizonOf(const Config& config) {
-  return IsAffine(config.controller) ? config.affine.horizon : config.mpc.horizon;
+  return IsPapers(config.controller) ? config.mpc.horizon : config.affine.horizon;
 }
 
 const char* ControllerName(ControllerKind kind) {

@@ -88,9 +88,10 @@ namespace loop {
 
 enum class ControllerKind : std::uint8_t { kLpvAffine, kLpv, kLpvStandard, kNmpc, kNmpcAffine };
 
-// By the problem that lpv-affine and nmpc-affine share: for the vehicle's rectangle, along the course, by progress.
-[[nodiscard]] constexpr bool IsAffine(ControllerKind kind) {
-  return kind == ControllerKind::kLpvAffine || kind == ControllerKind::kNmpcAffine;
+// One of the paper's controllers, which take the vehicle for a point and track a reference by time. The others, lpv-affine and
+// nmpc-affine, hold the vehicle's rectangle on the road.
+[[nodiscard]] constexpr bool IsPapers(ControllerKind kind) {
+  return kind != ControllerKind::kLpvAffine && kind != ControllerKind::kNmpcAffine;
 }
 // Nonlinear, by Ipopt.
 [[nodiscard]] constexpr bool IsNmpc(ControllerKind kind) {

@@ -25,17 +25,20 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bu
                          control::PlanCheck* check)
     : settings_(WithinHorizon(settings, controller.horizon())),
       inbox_(bus, settings.monitor, settings.period),
-      tracker_({.stop = {.vehicle = settings.vehicle, .t_s = base::ToSeconds(settings.period)},
+      tracker_({.vehicle = settings.vehicle,
+                .t_s = base::ToSeconds(settings.period),
                 .max_heading_error = settings.engage_max_heading_error,
-                .standstill_speed = settings.standstill_speed,
-                .by_progress = settings.by_progress},
-               reference, road, controller.horizon()),
+                .standstill_speed = settings.standstill_speed},
+               reference, road),
       planner_({.period = settings.period,
                 .deadline = settings.deadline,
                 .command_delay = settings.command_delay,
                 .vehicle = settings.vehicle},
-               controller, reference, road, std::move(stopwatch), check),
-      commands_(settings_.limits, settings.stop_deceleration),
+               controller, std::move(stopwatch), check),
+      commands_(settings_.limits,
+                control::PathStop({.vehicle = settings.vehicle, .t_s = base::ToSeconds(settings.period)},
+                                  reference),
+                settings.stop_deceleration),
       gate_(bus),
       reports_(settings.period) {
   frames_.reserve(kCommands + kReports + static_cast<std::size_t>(controller.horizon()) + 1);
@@ -62,13 +65,14 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   // 1. What is known now, and where on the road that is.
   const Snapshot known = inbox_.Take(now, trigger);
   commands_.Observe(known.state, commanding);
-  const RoutePlace place = tracker_.Advance(known, commanding, commands_.applied());
-  safety::ModeInputs inputs = InputsOf(known, place);
+  const control::RoutePlace place = tracker_.Advance(known, commanding, commands_.applied());
+  const control::RouteProgress progress = planner_.ProgressAt(place);
+  safety::ModeInputs inputs = InputsOf(known, place, progress);
 
   // 2. The plan: a new one from a new state; without one, or if it is late or refused, the active one goes on.
   const Outcome outcome =
       planner_.Plan(RequestOf(known, inputs), known, place, commanding, commands_.applied());
-  if (outcome.accepted) tracker_.Follow(outcome.solution->z);
+  if (outcome.accepted) commands_.Follow(outcome.solution->z, tracker_.motion());
   inputs.plan_fault = outcome.fault;
   inputs.plan_usable = planner_.active().Covers(outcome.step);
   inputs.plan_left = planner_.active().Left(outcome.step);
@@ -85,6 +89,7 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   // 5. The reports, after the commands, so that these are on the bus soonest.
   const CycleResult result{.known = known,
                            .place = place,
+                           .progress = progress,
                            .inputs = inputs,
                            .outcome = outcome,
                            .limited = limited,
@@ -110,7 +115,8 @@ std::span<const can::Frame> ControlLoop::Announce() {
   return frames_;
 }
 
-safety::ModeInputs ControlLoop::InputsOf(const Snapshot& known, const RoutePlace& place) const {
+safety::ModeInputs ControlLoop::InputsOf(const Snapshot& known, const control::RoutePlace& place,
+                                         const control::RouteProgress& progress) const {
   const double speed = known.state.z[control::kUpsilon];
   return {.bus_up = known.bus_up,
           .state_new = known.state_new,
@@ -122,7 +128,7 @@ safety::ModeInputs ControlLoop::InputsOf(const Snapshot& known, const RoutePlace
           .released = known.released,
           .override_seen = known.override_seen,
           .near_route = place.on_route && speed >= settings_.engage_min_speed,
-          .route_left = place.steps_left,
+          .route_left = place.on_route ? progress.steps_left : 0,
           .standstill = known.state_fresh && speed < settings_.standstill_speed,
           .silent = known.silent};
 }
@@ -139,7 +145,7 @@ PlanRequest ControlLoop::RequestOf(const Snapshot& known, const safety::ModeInpu
 safety::LimitResult ControlLoop::Issue(safety::ModeInputs& inputs, const Snapshot& known,
                                        const Outcome& outcome) {
   safety::LimitResult limited =
-      commands_.Command(mode_.mode, outcome.step, planner_.active(), tracker_, known.state);
+      commands_.Command(mode_.mode, outcome.step, planner_.active(), tracker_.motion(), known.state);
   if (!limited.command || !Encode(limited, known, outcome)) {
     inputs.internal_error = true;
     mode_ = safety::Next(mode_, inputs, settings_.modes);

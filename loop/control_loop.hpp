@@ -53,8 +53,7 @@ struct LoopSettings {
   double engage_min_speed = 3.0;          // [m/s], 0..50
   double engage_max_heading_error = 0.5;  // against the route [rad], 0..π
   bool send_horizon = true;               // PlannedHorizon frames
-  bool by_progress = false;    // the reference goes on from the point beside the vehicle, not by time
-  base::Time command_delay{};  // from a command to its effect
+  base::Time command_delay{};             // from a command to its effect
 };
 
 class ControlLoop {
@@ -98,7 +97,8 @@ class ControlLoop {
   [[nodiscard]] const LoopSettings& settings() const { return settings_; }
 
  private:
-  [[nodiscard]] safety::ModeInputs InputsOf(const Snapshot& known, const RoutePlace& place) const;
+  [[nodiscard]] safety::ModeInputs InputsOf(const Snapshot& known, const control::RoutePlace& place,
+                                            const control::RouteProgress& progress) const;
   [[nodiscard]] PlanRequest RequestOf(const Snapshot& known, const safety::ModeInputs& inputs) const;
   [[nodiscard]] safety::LimitResult Issue(safety::ModeInputs& inputs, const Snapshot& known,
                                           const Outcome& outcome);

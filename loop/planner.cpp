@@ -23,23 +23,19 @@ std::optional<safety::Cause> FaultOf(const Outcome& outcome, bool state_new) {
 }  // namespace
 
 Planner::Planner(const PlannerSettings& settings, control::Controller& controller,
-                 const control::TimeReference& reference, const control::RoadBounds& road,
                  std::function<base::Time()> stopwatch, control::PlanCheck* check)
     : settings_(settings),
       controller_(&controller),
-      reference_(&reference),
-      road_(road),
       stopwatch_(std::move(stopwatch)),
       check_(check),
       time_left_([this] { return stopwatch_() - start_ < settings_.deadline / kShareForIterations; }),
       delay_(settings.vehicle, base::ToSeconds(settings.period), base::ToSeconds(settings.command_delay)),
-      active_(controller.horizon()),
-      window_(static_cast<std::size_t>(controller.horizon()) + 1) {
+      active_(controller.horizon()) {
   obstacles_.reserve(ObstacleAssembler::kMaxObstacles);
 }
 
-Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const RoutePlace& place, bool commanding,
-                      const control::Input& applied) {
+Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control::RoutePlace& place,
+                      bool commanding, const control::Input& applied) {
   if (commanding) {
     delay_.Given(applied);
   } else {
@@ -68,7 +64,7 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const RoutePla
   return outcome;
 }
 
-const control::Plan& Planner::Solve(const Snapshot& known, const RoutePlace& place,
+const control::Plan& Planner::Solve(const Snapshot& known, const control::RoutePlace& place,
                                     const control::Input& applied) {
   const VehicleState& state = known.state;
   z_ = delay_.Ahead(state.z, base::ToSeconds(known.now - state.timestamp));
@@ -76,15 +72,8 @@ const control::Plan& Planner::Solve(const Snapshot& known, const RoutePlace& pla
   for (control::Obstacle& obstacle : obstacles_) {
     obstacle = control::Predict(obstacle, base::ToSeconds(known.obstacle_age) + delay_.delay());
   }
-  reference_->Window(place.point, window_);
-  const double psi = window_.front()[control::kPsi];
-  z_[control::kPsi] = psi + control::WrapAngle(z_[control::kPsi] - psi);
-  return controller_->Step({.z = z_,
-                            .u_previous = applied,
-                            .reference = window_,
-                            .road = road_,
-                            .obstacles = obstacles_,
-                            .time_left = &time_left_});
+  return controller_->Step(
+      {.z = z_, .u_previous = applied, .place = place, .obstacles = obstacles_, .time_left = &time_left_});
 }
 
 std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& plan) const {

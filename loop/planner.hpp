@@ -12,12 +12,11 @@
 #include "control/mpc/constraint.hpp"
 #include "control/mpc/controller.hpp"
 #include "control/mpc/plan_check.hpp"
-#include "control/road/time_reference.hpp"
+#include "control/road/route_place.hpp"
 #include "control/vehicle/delay_compensator.hpp"
 #include "control/vehicle/types.hpp"
 #include "loop/active_plan.hpp"
 #include "loop/inbox.hpp"
-#include "loop/route_tracker.hpp"
 #include "safety/mode_machine.hpp"
 
 namespace loop {
@@ -52,10 +51,8 @@ struct Outcome {
 
 class Planner {
  public:
-  // `stopwatch` answers with a time since any start, for durations only. `controller`, `reference` and `check` must outlive
-  // the planner. Without a check (null) a plan is accepted if its values are finite.
+  // `stopwatch` answers with a time since any start, for durations only. `controller` and `check` must outlive the planner. Without a check (null) a plan is accepted if its values are finite.
   Planner(const PlannerSettings& settings, control::Controller& controller,
-          const control::TimeReference& reference, const control::RoadBounds& road,
           std::function<base::Time()> stopwatch, control::PlanCheck* check);
 
   Planner(const Planner&) = delete;  // the controller's question for time left points into it
@@ -64,8 +61,12 @@ class Planner {
   // A cycle begins.
   void Start() { start_ = stopwatch_(); }
   // The plan of the cycle. `applied`: the last command, or while others drive what they do.
-  [[nodiscard]] Outcome Plan(PlanRequest request, const Snapshot& known, const RoutePlace& place,
+  [[nodiscard]] Outcome Plan(PlanRequest request, const Snapshot& known, const control::RoutePlace& place,
                              bool commanding, const control::Input& applied);
+
+  [[nodiscard]] control::RouteProgress ProgressAt(const control::RoutePlace& place) const {
+    return controller_->ProgressAt(place);
+  }
 
   // Drops the active plan: the next drive begins with a plan of its own.
   void Forget() { active_.Drop(); }
@@ -76,15 +77,13 @@ class Planner {
   [[nodiscard]] bus::FaultCode last_refusal() const { return last_refusal_; }
 
  private:
-  [[nodiscard]] const control::Plan& Solve(const Snapshot& known, const RoutePlace& place,
+  [[nodiscard]] const control::Plan& Solve(const Snapshot& known, const control::RoutePlace& place,
                                            const control::Input& applied);
   [[nodiscard]] std::optional<control::ConstraintViolation> Unmet(const control::Plan& plan) const;
   void Accept(const Snapshot& known, Outcome& outcome);
 
   PlannerSettings settings_;
   control::Controller* controller_;
-  const control::TimeReference* reference_;
-  control::RoadBounds road_;
   std::function<base::Time()> stopwatch_;
   control::PlanCheck* check_;
   std::function<bool()> time_left_;  // for another iteration
@@ -97,7 +96,6 @@ class Planner {
   base::Time start_{};                         // of the cycle, by the stopwatch
   control::State z_ = control::State::Zero();  // when the command of this cycle acts
   std::vector<control::Obstacle> obstacles_;   // then
-  std::vector<control::State> window_;         // of the reference
 };
 
 }  // namespace loop

@@ -45,7 +45,7 @@ void Reports::Write(const CycleResult& result, const Planner& planner) {
              .faulty_message = result.known.faulty_message,
              .countdown = Countdown(result),
              .plan_age = commanding && plan.exists() ? plan.Age(outcome.step) : -1,
-             .route_index = result.place.on_route ? result.place.point : -1,
+             .route_index = result.place.on_route ? static_cast<int>(result.progress.sample) : -1,
              .limited = result.limited.status == safety::LimitStatus::kLimited,
              .command = result.limited.command->u(),
              .step_time = outcome.solve_time,

@@ -6,10 +6,10 @@
 
 #include "base/time.hpp"
 #include "can/frame.hpp"
+#include "control/road/route_place.hpp"
 #include "loop/cycle_report.hpp"
 #include "loop/inbox.hpp"
 #include "loop/planner.hpp"
-#include "loop/route_tracker.hpp"
 #include "safety/command_gate.hpp"
 #include "safety/command_limiter.hpp"
 #include "safety/mode_machine.hpp"
@@ -19,7 +19,8 @@ namespace loop {
 // What a cycle came to.
 struct CycleResult {
   const Snapshot& known;
-  const RoutePlace& place;
+  const control::RoutePlace& place;
+  const control::RouteProgress& progress;
   const safety::ModeInputs& inputs;
   const Outcome& outcome;
   const safety::LimitResult& limited;

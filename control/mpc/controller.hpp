@@ -10,15 +10,15 @@
 
 #include "control/mpc/constraint.hpp"
 #include "control/qp/status.hpp"
+#include "control/road/route_place.hpp"
 #include "control/vehicle/types.hpp"
 
 namespace control {
 
 struct ControllerInput {
-  State z = State::Zero();           // measured; ψ unwrapped to within π of the reference's
+  State z = State::Zero();           // measured, ψ in any turn
   Input u_previous = Input::Zero();  // input last applied, against which the rate limits' first step is taken
-  std::span<const State> reference;  // z_ref, steps 0..N: N + 1 states
-  RoadBounds road;                   // relative to the reference
+  RoutePlace place;
   std::span<const Obstacle> obstacles;
   // Asked before an iteration that would improve the plan but is not needed, and within it: false ends it, and leaves the
   // plan before it. None: there is time.
@@ -54,6 +54,8 @@ class Controller {
  public:
   virtual ~Controller() = default;
   [[nodiscard]] virtual int horizon() const = 0;  // N
+  // Where its reference begins for a vehicle there, and for how many steps it can plan.
+  [[nodiscard]] virtual RouteProgress ProgressAt(const RoutePlace& place) const = 0;
   // One control step. The plan belongs to the controller and stays until the next Step or Reset. Does not
   // allocate, but for an NMPC's.
   [[nodiscard]] virtual const Plan& Step(const ControllerInput& input) = 0;

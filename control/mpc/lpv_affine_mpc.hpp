@@ -38,6 +38,9 @@ class LpvAffineMpc final : public Controller {
                const LpvAffineSettings& settings);
 
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
+  [[nodiscard]] RouteProgress ProgressAt(const RoutePlace& place) const override {
+    return ProgressByPlace(place);
+  }
   [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
   void Reset() override;
   [[nodiscard]] bool SetQpObserver(const QpObserver& observer) override;

@@ -45,7 +45,7 @@ bool LpvMpc::SetQpObserver(const QpObserver& observer) {
   return true;
 }
 
-const Plan& LpvMpc::Step(const ControllerInput& input) {
+const Plan& LpvMpc::Step(const TrackingInput& input) {
   assert(input.reference.size() == plan_.z.size());
   const bool scheduled_by_plan = has_prediction_;
   plan_.scheduling_error = 0.0;
@@ -77,7 +77,7 @@ const Plan& LpvMpc::Step(const ControllerInput& input) {
   return plan_;
 }
 
-void LpvMpc::BuildQp(const ControllerInput& input) {
+void LpvMpc::BuildQp(const TrackingInput& input) {
   const int N = settings_.horizon;
   qp_.x0 << input.z - input.reference[0], input.u_previous;
   for (int i = 0; i <= N; ++i) {
@@ -102,7 +102,7 @@ void LpvMpc::BuildQp(const ControllerInput& input) {
 
 // The order is the same in every stage before N, so that multipliers can be handed on from one to the next: inputs,
 // states, road, trust region of the states, obstacles. (Stage 0 has the first of them alone.)
-void LpvMpc::BuildRows(const ControllerInput& input, int i) {
+void LpvMpc::BuildRows(const TrackingInput& input, int i) {
   auto& stage = qp_.stages[Index(i)];
   const State& z_ref = input.reference[Index(i)];
   using VectorX = Eigen::Matrix<double, 8, 1>;
@@ -190,7 +190,7 @@ std::optional<ConstraintViolation> LpvMpc::DiagnoseInfeasibility() const {
   return largest;
 }
 
-void LpvMpc::ReadPlan(const ControllerInput& input) {
+void LpvMpc::ReadPlan(const TrackingInput& input) {
   for (std::size_t i = 0; i < plan_.z.size(); ++i) {
     plan_.z[i] = input.reference[i] + solver_.solution().stages[i].x.head<kStates>();
     if (i < plan_.u.size()) plan_.u[i] = solver_.solution().stages[i].u;

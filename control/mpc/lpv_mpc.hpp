@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "control/mpc/controller.hpp"
 #include "control/mpc/mpc_settings.hpp"
+#include "control/mpc/tracking_controller.hpp"
 #include "control/qp/ocp_qp_solver.hpp"
 #include "control/vehicle/lpv_model.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
@@ -28,12 +28,12 @@ struct LpvMpcSettings : MpcSettings {
   QpSettings qp{};
 };
 
-class LpvMpc final : public Controller {
+class LpvMpc final : public TrackingController {
  public:
   LpvMpc(const VehicleParameters& vehicle, const LpvMpcSettings& settings);
 
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
-  [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
+  [[nodiscard]] const Plan& Step(const TrackingInput& input) override;
   void Reset() override;
   // The row that needs the largest slack if the rows that hold states (bounds, road, obstacles) are made soft.
   [[nodiscard]] std::optional<ConstraintViolation> DiagnoseInfeasibility() const override;
@@ -43,9 +43,9 @@ class LpvMpc final : public Controller {
   [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }
 
  private:
-  void BuildQp(const ControllerInput& input);
-  void BuildRows(const ControllerInput& input, int i);
-  void ReadPlan(const ControllerInput& input);
+  void BuildQp(const TrackingInput& input);
+  void BuildRows(const TrackingInput& input, int i);
+  void ReadPlan(const TrackingInput& input);
   void MeasureTrustRegion();
   void PredictNext();
 

@@ -69,9 +69,8 @@ void TrackingProblem::Place(const State& z) {
   placed_ = true;
   s_ = place.s;
   lateral_ = place.lateral;
-  const double psi = course_->At(s_).psi;
   z_ = z;
-  z_[kPsi] = psi + WrapAngle(z[kPsi] - psi);
+  z_[kPsi] = UnwrapAngle(z[kPsi], course_->At(s_).psi);
 }
 
 void TrackingProblem::DecidePassing() {

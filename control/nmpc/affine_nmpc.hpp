@@ -40,6 +40,9 @@ class AffineNmpc final : public Controller {
              const AffineNmpcSettings& settings = {});
 
   [[nodiscard]] int horizon() const override { return problem_.horizon(); }
+  [[nodiscard]] RouteProgress ProgressAt(const RoutePlace& place) const override {
+    return ProgressByPlace(place);
+  }
   [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
   void Reset() override;
 

@@ -24,7 +24,7 @@ Nmpc::Nmpc(const VehicleParameters& vehicle, const NmpcSettings& settings)
   plan_.u.assign(Size(settings.horizon), Input::Zero());
 }
 
-const Plan& Nmpc::Step(const ControllerInput& input) {
+const Plan& Nmpc::Step(const TrackingInput& input) {
   problem_.Set(input);
   if (!has_guess_) StartFromReference(input);
   MoveOutOfObstacles(input);
@@ -49,7 +49,7 @@ std::optional<ConstraintViolation> Nmpc::DiagnoseInfeasibility() const {
   return largest;
 }
 
-void Nmpc::StartFromReference(const ControllerInput& input) {
+void Nmpc::StartFromReference(const TrackingInput& input) {
   point_ = {};
   point_.x.assign(Size(problem_.variables()), 0.0);
   for (int i = 1; i <= horizon(); ++i) {
@@ -57,7 +57,7 @@ void Nmpc::StartFromReference(const ControllerInput& input) {
   }
 }
 
-void Nmpc::MoveOutOfObstacles(const ControllerInput& input) {
+void Nmpc::MoveOutOfObstacles(const TrackingInput& input) {
   for (int i = 1; i <= horizon(); ++i) {
     double* const z = point_.x.data() + NmpcProblem::StateAt(i);
     for (const Obstacle& obstacle : input.obstacles) {

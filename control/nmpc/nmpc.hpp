@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "control/mpc/constraint.hpp"
-#include "control/mpc/controller.hpp"
 #include "control/mpc/mpc_settings.hpp"
+#include "control/mpc/tracking_controller.hpp"
 #include "control/nmpc/ipopt_solver.hpp"
 #include "control/nmpc/nmpc_problem.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
@@ -26,19 +26,19 @@ struct NmpcSettings : MpcSettings {
   double max_cpu_time = 0.25;  // of one step [s]
 };
 
-class Nmpc final : public Controller {
+class Nmpc final : public TrackingController {
  public:
   // Throws std::runtime_error: Ipopt refuses its options.
   Nmpc(const VehicleParameters& vehicle, const NmpcSettings& settings);
 
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
-  [[nodiscard]] const Plan& Step(const ControllerInput& input) override;
+  [[nodiscard]] const Plan& Step(const TrackingInput& input) override;
   void Reset() override { has_guess_ = false; }
   [[nodiscard]] std::optional<ConstraintViolation> DiagnoseInfeasibility() const override;
 
  private:
-  void StartFromReference(const ControllerInput& input);
-  void MoveOutOfObstacles(const ControllerInput& input);
+  void StartFromReference(const TrackingInput& input);
+  void MoveOutOfObstacles(const TrackingInput& input);
   void Shift();
 
   NmpcSettings settings_;

@@ -62,7 +62,7 @@ Eigen::Vector2d NmpcProblem::Normal(int i) const {
   return {-std::sin(psi), std::cos(psi)};
 }
 
-void NmpcProblem::Set(const ControllerInput& input) {
+void NmpcProblem::Set(const TrackingInput& input) {
   assert(input.reference.size() == Index(horizon()) + 1);
   z_0_ = input.z;
   reference_.assign(input.reference.begin(), input.reference.end());

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "control/mpc/constraint.hpp"
-#include "control/mpc/controller.hpp"
 #include "control/mpc/mpc_settings.hpp"
+#include "control/mpc/tracking_controller.hpp"
 #include "control/nmpc/nonlinear_program.hpp"
 #include "control/vehicle/single_track.hpp"
 
@@ -29,7 +29,7 @@ class NmpcProblem final : public NonlinearProgram {
   NmpcProblem(const VehicleParameters& vehicle, const MpcSettings& settings);
 
   // The problem of this step. Its size changes with the number of obstacles alone.
-  void Set(const ControllerInput& input);
+  void Set(const TrackingInput& input);
 
   static constexpr int kStepVariables = kInputs + kStates;
   [[nodiscard]] int horizon() const { return settings_.horizon; }

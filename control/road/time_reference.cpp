@@ -38,17 +38,19 @@ TimeReference::TimeReference(std::span<const Eigen::Vector2d> points, double t_s
   z_[last][kOmega] = 0.0;
 }
 
-void TimeReference::Window(int k, std::span<State> out) const {
+State TimeReference::At(int k) const {
   const int last = size() - 1;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const int index = k + static_cast<int>(i);
-    out[i] = z_[static_cast<std::size_t>(std::min(index, last))];
-    if (index > last) {
-      const double distance = (index - last) * t_s_ * out[i][kUpsilon];
-      out[i][kX] += distance * std::cos(out[i][kPsi]);
-      out[i][kY] += distance * std::sin(out[i][kPsi]);
-    }
+  State z = z_[static_cast<std::size_t>(std::min(k, last))];
+  if (k > last) {
+    const double distance = (k - last) * t_s_ * z[kUpsilon];
+    z[kX] += distance * std::cos(z[kPsi]);
+    z[kY] += distance * std::sin(z[kPsi]);
   }
+  return z;
+}
+
+void TimeReference::Window(int k, std::span<State> out) const {
+  for (State& z : out) z = At(k++);
 }
 
 }  // namespace control

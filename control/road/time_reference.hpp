@@ -25,7 +25,9 @@ class TimeReference {
   [[nodiscard]] int size() const { return static_cast<int>(z_.size()); }
   [[nodiscard]] const State& operator[](int k) const { return z_[static_cast<std::size_t>(k)]; }
 
-  // z_ref of steps k, k+1, ... into `out`. Past the end the last state is carried on straight at its speed.
+  // z_ref of step k; past the end the last state is carried on straight at its speed.
+  [[nodiscard]] State At(int k) const;
+  // z_ref of steps k, k+1, ... into `out`.
   void Window(int k, std::span<State> out) const;
 
  private:

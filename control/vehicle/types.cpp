@@ -10,4 +10,9 @@ double WrapAngle(double angle) {
   return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
+double UnwrapAngle(double angle, double near) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return angle + kTurn * std::round((near - angle) / kTurn);
+}
+
 }  // namespace control

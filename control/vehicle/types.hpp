@@ -41,4 +41,7 @@ struct RoadBounds {
 // Wraps an angle to (-π, π].
 [[nodiscard]] double WrapAngle(double angle);
 
+// The angle in the turn that is nearest to `near`; itself, to the bit, if it is within π of it.
+[[nodiscard]] double UnwrapAngle(double angle, double near);
+
 }  // namespace control

@@ -16,6 +16,7 @@
 
 #include "config/route_file.hpp"
 #include "control/mpc/lpv_mpc.hpp"
+#include "control/mpc/timed_controller.hpp"
 #include "daemon/log.hpp"
 #include "daemon/service.hpp"
 #include "loop/assembly.hpp"
@@ -28,13 +29,13 @@ struct Fault {
   int count = 0;
 };
 
-class FaultyController : public control::Controller {
+class FaultyController : public control::TrackingController {
  public:
   FaultyController(const loop::Config& config, Fault fault)
       : sound_(config.vehicle, config.mpc), fault_(std::move(fault)) {}
 
   int horizon() const override { return sound_.horizon(); }
-  const control::Plan& Step(const control::ControllerInput& input) override {
+  const control::Plan& Step(const control::TrackingInput& input) override {
     plan_ = sound_.Step(input);
     ++step_;
     if (step_ < fault_.first || step_ >= fault_.first + fault_.count) return plan_;
@@ -71,8 +72,10 @@ int main(int argc, char** argv) {
     loop::SelectController(config, "lpv");
     if (argc > 5) loop::SelectLockstep(config);
     loop::Assembly assembly(config, config::LoadRoute(config.route), base::MonotonicNow,
-                            [](const loop::Config& of, const control::RoadProfile&) {
-                              return std::make_unique<FaultyController>(of, FaultFromEnvironment());
+                            [](const loop::Config& of, const loop::Road& road) {
+                              auto faulty = std::make_unique<FaultyController>(of, FaultFromEnvironment());
+                              return std::make_unique<control::TimedController>(
+                                  std::move(faulty), road.by_time, road.by_progress.road());
                             });
     lpvmpcd::OpenLog(config.log_level);
     lpvmpcd::Service service(config.service, assembly.loop(), [] {});

@@ -115,10 +115,10 @@ TEST_F(ConfigTest, TrustRegionOfLpvAffineIsAdaptiveFixedOrNone) {
 
 TEST_F(ConfigTest, LpvAffineSetsOffFromStandstillAndThePapersControllersDoNot) {
   Config config = Load(kRoute);
-  EXPECT_TRUE(config.loop.by_progress);
+  EXPECT_FALSE(IsPapers(config.controller));
   EXPECT_EQ(config.loop.engage_min_speed, 0.0);
   SelectController(config, "lpv");
-  EXPECT_FALSE(config.loop.by_progress);
+  EXPECT_TRUE(IsPapers(config.controller));
   EXPECT_EQ(config.loop.engage_min_speed, 3.0);
   Config written = Load(kRoute + "[engage]\nmin_speed = 1.5\n");
   EXPECT_EQ(written.loop.engage_min_speed, 1.5);

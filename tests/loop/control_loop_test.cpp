@@ -89,7 +89,8 @@ class ControlLoopTest : public testing::Test {
   control::TimeReference reference_{StraightRoute(), 0.05};
   base::Time stopwatch_step_ = 0ms;  // by which the stopwatch goes on each time it is read
   base::Time stopwatch_{};
-  ControlLoop loop_{{}, bus_, controller_, reference_, {}, [this] { return stopwatch_ += stopwatch_step_; }};
+  control::TimedController timed_{std::make_unique<Forwarding>(controller_), reference_, {}};
+  ControlLoop loop_{{}, bus_, timed_, reference_, {}, [this] { return stopwatch_ += stopwatch_step_; }};
   bus::FakeVehicle vehicle_{bus_};
   base::Time now_ = 10s;
 };
@@ -202,7 +203,8 @@ TEST_F(ControlLoopTest, HeadingIsGivenUnwrappedToTheReference) {
     west.emplace_back(-0.5 * i, 0.0);
   }
   const control::TimeReference reference(west, 0.05);
-  ControlLoop loop({}, bus_, controller_, reference, {}, [] { return base::Time{}; });
+  control::TimedController timed(std::make_unique<Forwarding>(controller_), reference, {});
+  ControlLoop loop({}, bus_, timed, reference, {}, [] { return base::Time{}; });
   vehicle_.feedback.psi = -3.1;
   for (int i = 0; i < 8; ++i) {
     vehicle_.request.engage = i > 4;

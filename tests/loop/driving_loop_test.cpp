@@ -18,7 +18,6 @@ constexpr double kThirdStep = 1.95 + 1.0 + 2.5 * kPeriod * kSpeed;
 
 LoopSettings Settings(base::Time command_delay) {
   LoopSettings settings;
-  settings.by_progress = true;
   settings.command_delay = command_delay;
   return settings;
 }
@@ -75,7 +74,8 @@ class DrivingLoopTest : public testing::Test {
                              .t_s = kPeriod},
                             course_};
   LoopSettings settings_;
-  ControlLoop loop_{settings_, bus_, controller_, reference_, kRoad, [] { return base::Time{}; }, &check_};
+  ProgressController by_progress_{controller_, reference_};
+  ControlLoop loop_{settings_, bus_, by_progress_, reference_, kRoad, [] { return base::Time{}; }, &check_};
   bus::FakeVehicle vehicle_{bus_};
   base::Time now_ = 10s;
 };

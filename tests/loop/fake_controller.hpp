@@ -2,16 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
-#include "control/mpc/controller.hpp"
+#include "control/mpc/timed_controller.hpp"
 
 namespace loop {
 
 // Answers as it is told to. Its plan's inputs are recognisable: δ_i = 0.01 (i + 1), a_i = −0.1 (i + 1).
-class FakeController : public control::Controller {
+class FakeController : public control::TrackingController {
  public:
   static constexpr int kHorizon = 4;
   FakeController() {
@@ -22,7 +23,7 @@ class FakeController : public control::Controller {
   }
   void Plan(const control::Input& u) { std::ranges::fill(plan_.u, u); }  // from now on, this in every step
   int horizon() const override { return kHorizon; }
-  const control::Plan& Step(const control::ControllerInput& input) override {
+  const control::Plan& Step(const control::TrackingInput& input) override {
     ++steps;
     z = input.z;
     u_previous = input.u_previous;
@@ -50,6 +51,43 @@ class FakeController : public control::Controller {
 
  private:
   control::Plan plan_;
+};
+
+// The controller as another owner than itself has it.
+class Forwarding : public control::TrackingController {
+ public:
+  explicit Forwarding(control::TrackingController& controller) : controller_(&controller) {}
+  int horizon() const override { return controller_->horizon(); }
+  const control::Plan& Step(const control::TrackingInput& input) override { return controller_->Step(input); }
+  void Reset() override { controller_->Reset(); }
+
+ private:
+  control::TrackingController* controller_;
+};
+
+// The controller on a reference that begins beside the vehicle, as that of lpv-affine does.
+class ProgressController : public control::Controller {
+ public:
+  ProgressController(FakeController& controller, const control::TimeReference& reference)
+      : controller_(&controller), reference_(&reference) {}
+  int horizon() const override { return controller_->horizon(); }
+  control::RouteProgress ProgressAt(const control::RoutePlace& place) const override {
+    return control::ProgressByPlace(place);
+  }
+  const control::Plan& Step(const control::ControllerInput& input) override {
+    std::array<control::State, FakeController::kHorizon + 1> window;
+    reference_->Window(static_cast<int>(ProgressAt(input.place).sample), window);
+    return controller_->Step({.z = input.z,
+                              .u_previous = input.u_previous,
+                              .reference = window,
+                              .road = {},
+                              .obstacles = input.obstacles});
+  }
+  void Reset() override { controller_->Reset(); }
+
+ private:
+  FakeController* controller_;
+  const control::TimeReference* reference_;
 };
 
 // 10 m/s along X.

@@ -175,7 +175,7 @@ TEST(SweepConfig, NmpcHasTheProblemOfLpvAffine) {
   EXPECT_EQ(nmpc.affine.mu, affine.affine.mu);
   EXPECT_EQ(nmpc.affine.footprint.half_width, affine.affine.footprint.half_width);
   EXPECT_EQ(nmpc.loop.command_delay, affine.loop.command_delay);
-  EXPECT_TRUE(nmpc.loop.by_progress);
+  EXPECT_FALSE(IsPapers(nmpc.controller));
   // A drive's file names the kind, and is read again.
   EXPECT_EQ(tools::ConfigFor(loop::ControllerName(nmpc.controller), {}).controller, nmpc.controller);
 }

@@ -33,20 +33,17 @@ struct Samples {
 void Drive(const sim::Scenario& scenario, const loop::Config& config, const control::TimeReference& reference,
            const config::RouteFile& route, Samples& samples) {
   const int horizon = loop::HorizonOf(config);
-  const control::RoadProfile course(route.route, route.road, config.speed);
-  const std::unique_ptr<control::Controller> controller = tools::MakeController(config, course);
+  const control::RoadProfile profile(route.route, route.road, config.speed);
+  const std::unique_ptr<control::Controller> controller =
+      tools::MakeController(config, {.by_time = reference, .by_progress = profile});
   sim::Plant plant(scenario.plant, reference[0]);
   control::Input u = control::Input::Zero();
-  std::vector<control::State> window(static_cast<std::size_t>(horizon) + 1);
   for (int k = 0; k + horizon < reference.size(); ++k) {
     const control::Plan* step = nullptr;
     samples.times.Measure([&] {
-      reference.Window(k, window);
-      step = &controller->Step({.z = plant.state(),
-                                .u_previous = u,
-                                .reference = window,
-                                .road = route.road,
-                                .obstacles = scenario.obstacles});
+      const control::RoutePlace place{.on_route = true, .nearest = k, .due = k, .samples = reference.size()};
+      step = &controller->Step(
+          {.z = plant.state(), .u_previous = u, .place = place, .obstacles = scenario.obstacles});
     });
     const control::Plan& plan = *step;
     samples.iterations += plan.iterations;

@@ -28,8 +28,8 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& 
   }
   loop::Config untimed = config;  // what a computer takes for a step must not change the drive
   untimed.loop.deadline = base::Time::max();
-  const auto make = [&](const loop::Config& of, const control::RoadProfile& course) {
-    std::unique_ptr<control::Controller> law = tools::MakeController(of, course);
+  const auto make = [&](const loop::Config& of, const loop::Road& road) {
+    std::unique_ptr<control::Controller> law = tools::MakeController(of, road);
     if (hooks.qp && !law->SetQpObserver(hooks.qp)) {
       throw std::invalid_argument(
           fmt::format("controller {} solves no quadratic problem that could be recorded",

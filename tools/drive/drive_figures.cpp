@@ -4,7 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <span>
+#include <vector>
 
+#include "control/road/time_reference.hpp"
 #include "control/vehicle/geometry.hpp"
 #include "loop/violation_text.hpp"
 
@@ -29,7 +31,8 @@ control::State Beside(const control::State& z, std::span<const control::State> r
 // Of the inputs that were applied, seen as the next step's u_{k−1}.
 class Meter {
  public:
-  Meter(const CostWeights& weights, double t_s) : weights_(weights), t_s_(t_s) {}
+  Meter(const CostWeights& weights, double t_s, const control::Route& route)
+      : weights_(weights), t_s_(t_s), reference_(control::SampleRoute(route, t_s), t_s) {}
 
   void Take(const StepObservation& observed) {
     const control::Input& u = observed.input.u_previous;
@@ -39,9 +42,11 @@ class Meter {
       figures_.cost += weights_.R.dot(u.cwiseAbs2());
     }
     u_last_ = u;
-    const auto& reference = observed.input.reference;
-    const control::State error =
-        observed.input.z - (weights_.along ? reference.front() : Beside(observed.input.z, reference));
+    window_.resize(static_cast<std::size_t>(observed.controller.horizon()) + 1);
+    reference_.Window(static_cast<int>(observed.controller.ProgressAt(observed.input.place).sample), window_);
+    control::State z = observed.input.z;
+    z[control::kPsi] = control::UnwrapAngle(z[control::kPsi], window_.front()[control::kPsi]);
+    const control::State error = z - (weights_.along ? window_.front() : Beside(z, window_));
     figures_.cost += weights_.Q.dot(error.cwiseAbs2());
     if (observed.plan.status != control::SolverStatus::kSolved && !figures_.first_failure) {
       figures_.first_failure = {.step = static_cast<int>(figures_.step_seconds.size()),
@@ -63,6 +68,8 @@ class Meter {
  private:
   CostWeights weights_;
   double t_s_;
+  control::TimeReference reference_;
+  std::vector<control::State> window_;
   control::Input u_last_ = control::Input::Zero();
   control::Input squared_rate_ = control::Input::Zero();
   DriveFigures figures_;
@@ -87,7 +94,7 @@ const char* NameOf(control::SolverStatus status) {
 DriveFigures MeasureDrive(const sim::Scenario& scenario, const loop::Config& config,
                           const config::RouteFile& route, const CostWeights& weights,
                           const std::function<void(const can::Frame&)>& frame) {
-  Meter meter(weights, config.mpc.t_s);
+  Meter meter(weights, config.mpc.t_s, route.route);
   const ClosedLoopHooks hooks{.frame = frame,
                               .step = [&](const StepObservation& observed) { meter.Take(observed); }};
   return meter.Result(DriveClosedLoop(scenario, config, route, hooks));

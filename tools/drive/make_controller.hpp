@@ -1,15 +1,15 @@
-// The controller that a configuration names: any of them, also those that no daemon drives by. `course` outlives it.
+// The controller that a configuration names: any of them, also those that no daemon drives by. What `road` refers to outlives it.
 #pragma once
 
 #include <memory>
 
 #include "control/mpc/controller.hpp"
-#include "control/road/road_profile.hpp"
+#include "loop/assembly.hpp"
 #include "loop/config.hpp"
 
 namespace tools {
 
 [[nodiscard]] std::unique_ptr<control::Controller> MakeController(const loop::Config& config,
-                                                                  const control::RoadProfile& course);
+                                                                  const loop::Road& road);
 
 }  // namespace tools

@@ -24,10 +24,16 @@ class ObservedController final : public control::Controller {
       : controller_(std::move(controller)), observer_(std::move(observer)) {}
 
   [[nodiscard]] int horizon() const override { return controller_->horizon(); }
+  [[nodiscard]] control::RouteProgress ProgressAt(const control::RoutePlace& place) const override {
+    return controller_->ProgressAt(place);
+  }
   [[nodiscard]] const control::Plan& Step(const control::ControllerInput& input) override;
   void Reset() override { controller_->Reset(); }
   [[nodiscard]] std::optional<control::ConstraintViolation> DiagnoseInfeasibility() const override {
     return controller_->DiagnoseInfeasibility();
+  }
+  [[nodiscard]] bool SetQpObserver(const control::QpObserver& observer) override {
+    return controller_->SetQpObserver(observer);
   }
 
  private:

@@ -26,7 +26,7 @@ loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& rang
   config.mpc.obstacle_margin += kVehicleFootprint.half_width + kCornerSwing;
   config.affine.footprint = kVehicleFootprint;
   config.affine.mu = ranges.mu.low;
-  if (IsAffine(config.controller)) {
+  if (!IsPapers(config.controller)) {
     config.loop.command_delay = base::FromSeconds(kMeanDelay);
   }
   config.service.interface = "vcan0";  // in logs
@@ -43,7 +43,7 @@ std::vector<std::string> SweepControllers() {
 
 config::RouteFile RouteFor(const RandomScenario& drawn, const loop::Config& config) {
   config::RouteFile route = drawn.route;
-  if (IsAffine(config.controller)) return route;
+  if (!IsPapers(config.controller)) return route;
   route.road.left -= drawn.scenario.footprint.half_width;
   route.road.right += drawn.scenario.footprint.half_width;
   return route;

@@ -117,7 +117,7 @@ TEST(Allocations, StepWithTheAffineModelTakesNone) {
   testing::CourseLoop loop(testing::WindingRoad(30.0, 12.0), settings);
   loop.obstacles().reserve(100);
   const auto step = [&](SolverStatus expected) {
-    const ControllerInput input = loop.Asked();
+    const auto input = loop.Asked();
     const std::size_t before = Taken();
     const Plan& plan = loop.mpc().Step(input);
     const std::size_t taken = Taken() - before;

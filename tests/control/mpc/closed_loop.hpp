@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "control/mpc/controller.hpp"
+#include "control/mpc/tracking_controller.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/single_track.hpp"
 #include "tests/control/vehicle/rk4.hpp"
@@ -32,7 +32,7 @@ inline TimeReference StraightPath(int count, double speed) {
 
 class ClosedLoop {
  public:
-  ClosedLoop(Controller& controller, TimeReference reference)
+  ClosedLoop(TrackingController& controller, TimeReference reference)
       : controller_(&controller),
         reference_(std::move(reference)),
         window_(static_cast<std::size_t>(controller.horizon()) + 1),
@@ -50,7 +50,7 @@ class ClosedLoop {
     reference_.Window(k_, window_);
     return controller_->Step(Asked());
   }
-  [[nodiscard]] ControllerInput Asked() const {
+  [[nodiscard]] TrackingInput Asked() const {
     return {.z = z_, .u_previous = u_, .reference = window_, .road = road_, .obstacles = obstacles_};
   }
   // Applies the plan's first input for one step.
@@ -67,7 +67,7 @@ class ClosedLoop {
   }
 
  private:
-  Controller* controller_;
+  TrackingController* controller_;
   TimeReference reference_;
   SingleTrackModel model_{VehicleParameters{}};
   std::vector<State> window_;

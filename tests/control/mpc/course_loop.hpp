@@ -54,12 +54,7 @@ class CourseLoop {
   // The controller's answer to the present state; nothing moves.
   const Plan& Ask() { return mpc_.Step(Asked()); }
   [[nodiscard]] ControllerInput Asked() const {
-    return {.z = z_,
-            .u_previous = u_,
-            .reference = {},
-            .road = course_.road(),
-            .obstacles = obstacles_,
-            .time_left = nullptr};
+    return {.z = z_, .u_previous = u_, .place = {}, .obstacles = obstacles_, .time_left = nullptr};
   }
   // Applies the plan's first input for one step; obstacles move on.
   void Drive(const Plan& plan) {

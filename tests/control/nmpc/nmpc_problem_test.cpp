@@ -74,7 +74,7 @@ class NmpcProblemTest : public ::testing::Test {
   static constexpr int kHorizon = 5;
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-  [[nodiscard]] ControllerInput Asked() const {
+  [[nodiscard]] TrackingInput Asked() const {
     return {.z = window_[0],
             .u_previous = {0.02, 0.3},
             .reference = window_,

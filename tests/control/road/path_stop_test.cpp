@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "control/road/odometer.hpp"
+#include "control/vehicle/geometry.hpp"
 #include "control/vehicle/single_track.hpp"
 #include "tests/control/vehicle/rk4.hpp"
 
@@ -23,6 +25,33 @@ std::vector<Eigen::Vector2d> Circle(double metres) {
   }
   return points;
 }
+
+// A path stop with the odometer that it steers by, and the offset of its path.
+class Stopping {
+ public:
+  explicit Stopping(const TimeReference& reference)
+      : reference_(&reference), odometer_({}, kTs, reference), stop_({}, reference) {}
+
+  // The vehicle is at `z`, beside sample k; its path leads as far beside the reference as it is.
+  void Start(const State& z, int k) {
+    odometer_.Start(z, k);
+    const State beside = reference_->At(odometer_.motion().nearest);
+    offset_ = LeftOf(beside[kPsi]).dot(Position(z) - Position(beside));
+  }
+  void Advance(const State* measured, const Input& applied) { odometer_.Advance(measured, applied); }
+  void Follow(std::span<const State> plan) { offset_ = stop_.OffsetOf(plan, odometer_.motion()); }
+  [[nodiscard]] double Steering(double applied) const {
+    return stop_.Steering(odometer_.motion(), offset_, applied);
+  }
+  [[nodiscard]] double speed() const { return odometer_.motion().speed; }
+  [[nodiscard]] double offset() const { return offset_; }
+
+ private:
+  const TimeReference* reference_;
+  Odometer odometer_;
+  PathStop stop_;
+  double offset_ = 0.0;
+};
 
 // The nonlinear model in a steady turn, `offset` to the left of the circle, until it is slow.
 class PathStopInACurve : public ::testing::Test {
@@ -53,7 +82,7 @@ class PathStopInACurve : public ::testing::Test {
     z_ = testing::Rk4(z_, kTs, 50, [this](const State& x) { return model_.Derivative(x, u_); });
   }
 
-  Figures Stop(PathStop& stop, bool measured) {
+  Figures Stop(Stopping& stop, bool measured) {
     Figures figures;
     while (z_[kUpsilon] > kSlowest) {
       const Input u(stop.Steering(u_[kDelta]), -3.0);
@@ -76,7 +105,7 @@ class PathStopInACurve : public ::testing::Test {
 };
 
 TEST_F(PathStopInACurve, MeasuredItStaysOnItsPathToTheEnd) {
-  PathStop stop({}, reference_);
+  Stopping stop(reference_);
   stop.Start(z_, 0);
   EXPECT_NEAR(stop.offset(), offset_, 0.05);
   const Figures figures = Stop(stop, true);
@@ -86,7 +115,7 @@ TEST_F(PathStopInACurve, MeasuredItStaysOnItsPathToTheEnd) {
 }
 
 TEST_F(PathStopInACurve, BlindItStaysOnTheRoad) {
-  PathStop stop({}, reference_);
+  Stopping stop(reference_);
   stop.Start(z_, 0);
   const Figures figures = Stop(stop, false);
   EXPECT_LT(figures.largest_deviation, 1.0);
@@ -95,7 +124,7 @@ TEST_F(PathStopInACurve, BlindItStaysOnTheRoad) {
 }
 
 TEST_F(PathStopInACurve, PathEndsWhereTheLastPlanEnds) {
-  PathStop stop({}, reference_);
+  Stopping stop(reference_);
   stop.Start(z_, 0);
   std::vector<State> plan(9, State::Zero());
   for (std::size_t i = 0; i < plan.size(); ++i) {
@@ -110,7 +139,7 @@ TEST_F(PathStopInACurve, PathEndsWhereTheLastPlanEnds) {
 
 TEST(PathStop, PastTheEndOfTheReferenceItGoesStraightOn) {
   const TimeReference reference(std::vector<Eigen::Vector2d>{{0.0, 0.0}, {0.5, 0.0}, {1.0, 0.0}}, kTs);
-  PathStop stop({}, reference);
+  Stopping stop(reference);
   State z = State::Zero();
   z[kUpsilon] = 10.0;
   stop.Start(z, 0);
@@ -123,7 +152,7 @@ TEST(PathStop, PastTheEndOfTheReferenceItGoesStraightOn) {
 
 TEST(PathStop, ReckonedSpeedEndsAtStandstillAndTheWheelsAreHeld) {
   const TimeReference reference(Circle(100.0), kTs);
-  PathStop stop({}, reference);
+  Stopping stop(reference);
   State z = State::Zero();
   z << kRadius, 0.0, 2.0, 0.0, M_PI / 2.0, 0.0;
   stop.Start(z, 0);

@@ -1,4 +1,4 @@
-#include "loop/route_place.hpp"
+#include "loop/find_on_route.hpp"
 
 #include <algorithm>
 #include <cmath>
