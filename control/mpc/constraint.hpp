@@ -22,10 +22,13 @@ struct Constraint {
   int step = 0;  // i, 0..N
 };
 
+// A slack below this is the solver's inaccuracy.
+inline constexpr double kLeastRelaxation = 1e-3;
+
 struct ConstraintViolation {
   Constraint constraint;
-  double amount =
-      0.0;  // > 0, in the unit of what is constrained; of road and obstacle [m]; the largest number of all, whatever its unit
+  // > 0, in the unit of the constrained quantity, [m] for road and obstacle. Amounts are compared whatever their units.
+  double amount = 0.0;
 };
 
 }  // namespace control

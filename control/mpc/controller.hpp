@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "control/mpc/constraint.hpp"
+#include "control/mpc/vehicle_qp.hpp"
 #include "control/qp/status.hpp"
 #include "control/road/route_place.hpp"
 #include "control/vehicle/types.hpp"
@@ -22,7 +22,7 @@ struct ControllerInput {
   std::span<const Obstacle> obstacles;
   // Asked before an iteration that would improve the plan but is not needed, and within it: false ends it, and leaves the
   // plan before it. None: there is time.
-  const std::function<bool()>* time_left = nullptr;
+  const TimeLeft* time_left = nullptr;
 };
 
 // Of the state, the input last applied and the obstacles.
@@ -45,10 +45,6 @@ struct Plan {
   double largest_slack = 0.0;     // in trust-region radii
   ConstraintViolation relaxation;  // largest slack of another soft constraint; amount 0: none
 };
-
-template <int kNx, int kNu>
-struct OcpQp;
-using QpObserver = std::function<void(const OcpQp<8, 2>&)>;
 
 class Controller {
  public:

@@ -16,15 +16,16 @@
 // x = [z − z_ref; u_{k−1} − u_ref], its input Δu: every bound of an input is then one of a single variable.
 #pragma once
 
-#include <array>
 #include <span>
-#include <vector>
 
 #include "control/mpc/controller.hpp"
 #include "control/mpc/lpv_affine_settings.hpp"
 #include "control/mpc/prediction.hpp"
+#include "control/mpc/row_writer.hpp"
 #include "control/mpc/tracking_problem.hpp"
-#include "control/qp/ocp_qp_solver.hpp"
+#include "control/mpc/trust_region.hpp"
+#include "control/mpc/vehicle_qp.hpp"
+#include "control/qp/solver.hpp"
 #include "control/road/road_profile.hpp"
 #include "control/vehicle/discrete_model.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
@@ -46,7 +47,7 @@ class LpvAffineMpc final : public Controller {
   [[nodiscard]] bool SetQpObserver(const QpObserver& observer) override;
 
   // The QP of the last step, and its reference: for recording and for tests.
-  [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }
+  [[nodiscard]] const VehicleQp& qp() const { return qp_; }
   [[nodiscard]] std::span<const State> reference() const { return task_.reference(); }
   [[nodiscard]] std::span<const Input> reference_input() const { return task_.reference_input(); }
 
@@ -54,27 +55,26 @@ class LpvAffineMpc final : public Controller {
   void CompareScheduling();
   void Solve(const ControllerInput& input);
   [[nodiscard]] bool BuildQp(const Input& u_previous);
-  [[nodiscard]] bool AddInputRows(const Input& u_previous, int i);
-  [[nodiscard]] bool AddFrictionRows(int i);
-  [[nodiscard]] bool AddTrustRegion(int i);
-  [[nodiscard]] bool AddBodyRows(int i);
-  void Name(int i, ConstraintKind kind, int index);  // of the row of stage i that was added last
+  void AddInputRows(const Input& u_previous, int i);
+  void AddFrictionRows(int i);
+  void AddTrustRegion(int i);
+  void AddBodyRows(int i);
   [[nodiscard]] double ReadPlan();
   void MeasureRelaxation();
 
   LpvAffineSettings settings_;
   DiscreteModel model_;
   TrackingProblem task_;
-  OcpQp<8, 2> qp_;
-  OcpQpSolver<8, 2> solver_;
-  OcpQpPoint<8, 2> guess_;
-  std::vector<std::array<Constraint, kMaxRows>> constraints_;  // what the rows of each stage stand for
+  VehicleQp qp_;
+  RowWriter rows_;
+  VehicleQpSolver solver_;
+  VehicleQpPoint warm_start_;
   Plan plan_;
-  QpObserver show_qp_;
+  QpObserver qp_observer_;
 
   Prediction prediction_;
-  bool has_guess_ = false;    // guess_ holds the last QP's solution, shifted where that was the last step's
-  double trust_scale_ = 1.0;  // of the trust region's radii
+  TrustRegion trust_region_;
+  bool has_warm_start_ = false;  // the last QP's solution, shifted if that was the last step's
 };
 
 }  // namespace control

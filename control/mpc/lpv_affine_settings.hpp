@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "control/qp/ocp_qp_solver.hpp"
+#include "control/qp/solver.hpp"
 #include "control/vehicle/footprint.hpp"
 #include "control/vehicle/types.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"

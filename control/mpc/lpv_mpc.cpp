@@ -7,71 +7,49 @@
 #include "control/road/halfspace.hpp"
 
 namespace control {
-namespace {
-
-constexpr int kPreviousInput = kStates;  // index of u_{k−1} in the QP's state
-// The scheduled quantities in the order of p and of the trust radii: three states, then δ.
-constexpr std::array kScheduledStates{kUpsilon, kNu, kPsi};
-constexpr std::size_t kScheduledDelta = kScheduledStates.size();
-
-std::size_t Index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 LpvMpc::LpvMpc(const VehicleParameters& vehicle, const LpvMpcSettings& settings)
     : settings_(settings),
       model_(vehicle),
       qp_(settings.horizon),
-      constraints_(Index(settings.horizon) + 1),
+      rows_(qp_),
       solver_(settings.horizon, settings.qp),
       elastic_(settings.horizon),
       elastic_solver_(settings.horizon, settings.qp),
-      guess_(settings.horizon),
-      predicted_z_(Index(settings.horizon) + 1, State::Zero()),
-      predicted_u_(Index(settings.horizon), Input::Zero()) {
+      warm_start_(settings.horizon),
+      prediction_(settings.horizon),
+      trust_region_(settings.trust_radius) {
   plan_.z.assign(Index(settings.horizon) + 1, State::Zero());
   plan_.u.assign(Index(settings.horizon), Input::Zero());
 }
 
 void LpvMpc::Reset() {
-  has_prediction_ = false;
-  has_guess_ = false;
+  prediction_.Clear();
+  has_warm_start_ = false;
 }
 
 bool LpvMpc::SetQpObserver(const QpObserver& observer) {
-  show_qp_ = observer;
+  qp_observer_ = observer;
   return true;
 }
 
 const Plan& LpvMpc::Step(const TrackingInput& input) {
   assert(input.reference.size() == plan_.z.size());
-  const bool scheduled_by_plan = has_prediction_;
   plan_.scheduling_error = 0.0;
-  if (scheduled_by_plan) {
-    const auto error = [&](double realised, double predicted, std::size_t j) {
-      const double e = std::abs(realised - predicted) / settings_.trust_radius[static_cast<Eigen::Index>(j)];
-      plan_.scheduling_error = std::max(plan_.scheduling_error, e);
-    };
-    for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
-      error(input.z[kScheduledStates[j]], predicted_z_[0][kScheduledStates[j]], j);
-    }
+  if (prediction_.exists()) {
+    plan_.scheduling_error = trust_region_.SchedulingError(input.z, prediction_.z()[0]);
   } else {
-    // Paper, alg:LPVMPC, line 1: p̂_{i|0} = (υ₀, ν₀, δ₀, ψ₀).
-    std::ranges::fill(predicted_z_, input.z);
-    std::ranges::fill(predicted_u_, input.u_previous);
+    prediction_.Hold(input.z, input.u_previous);  // paper, alg:LPVMPC, line 1: p̂_{i|0} = (υ₀, ν₀, δ₀, ψ₀)
   }
   BuildQp(input);
-  if (show_qp_) show_qp_(qp_);
-  const QpResult result = solver_.Solve(qp_, has_guess_ ? &guess_ : nullptr);
+  if (qp_observer_) qp_observer_(qp_);
+  const QpResult result = solver_.Solve(qp_, has_warm_start_ ? &warm_start_ : nullptr);
   plan_.status = result.status;
   plan_.iterations = result.iterations;
   ReadPlan(input);
-  has_guess_ = result.MakesGuess();
-  if (has_guess_) {
-    guess_ = solver_.solution();
-    guess_.Shift();
+  has_warm_start_ = result.CanWarmStart();
+  if (has_warm_start_) {
+    warm_start_ = solver_.solution();
+    warm_start_.Shift();
   }
   PredictNext();
   return plan_;
@@ -80,16 +58,16 @@ const Plan& LpvMpc::Step(const TrackingInput& input) {
 void LpvMpc::BuildQp(const TrackingInput& input) {
   const int N = settings_.horizon;
   qp_.x0 << input.z - input.reference[0], input.u_previous;
+  rows_.Clear();
   for (int i = 0; i <= N; ++i) {
     auto& stage = qp_.stages[Index(i)];
     stage.Q.head<kStates>() = 2.0 * (i < N ? settings_.Q : settings_.P);
-    stage.ClearRows();
-    BuildRows(input, i);
+    AddRows(input, i);
     if (i == N) break;
-    const State& z_hat = predicted_z_[Index(i)];
+    const State& z_hat = prediction_.z()[Index(i)];
     const Scheduling p_hat{.upsilon = z_hat[kUpsilon],
                            .nu = z_hat[kNu],
-                           .delta = predicted_u_[Index(i)][kDelta],
+                           .delta = prediction_.u()[Index(i)][kDelta],
                            .psi = z_hat[kPsi]};
     const LinearModel model = model_.Discrete(p_hat, settings_.t_s, settings_.discretisation);
     stage.A.topLeftCorner<kStates, kStates>() = model.A;
@@ -101,62 +79,74 @@ void LpvMpc::BuildQp(const TrackingInput& input) {
 }
 
 // The order is the same in every stage before N, so that multipliers can be handed on from one to the next: inputs,
-// states, road, trust region of the states, obstacles. (Stage 0 has the first of them alone.)
-void LpvMpc::BuildRows(const TrackingInput& input, int i) {
-  auto& stage = qp_.stages[Index(i)];
-  const State& z_ref = input.reference[Index(i)];
-  using VectorX = Eigen::Matrix<double, 8, 1>;
-  bool fits = true;
-  // What the row added last stands for.
-  const auto name = [&](ConstraintKind kind, int index) {
-    constraints_[Index(i)][Index(stage.row_count - 1)] = {.kind = kind, .index = index, .step = i};
-  };
-  if (i < settings_.horizon) {
-    for (int j = 0; j < kInputs; ++j) {
-      fits &= stage.AddInputBound(j, settings_.u_min[j], settings_.u_max[j]);
-      name(ConstraintKind::kInput, j);
-      const VectorX C = -VectorX::Unit(kPreviousInput + j);
-      fits &= stage.AddRow(C, Input::Unit(j), -settings_.rate_max[j], settings_.rate_max[j]);
-      name(ConstraintKind::kRate, j);
-    }
-    if (settings_.trust_region && has_prediction_) {
-      const double delta_hat = predicted_u_[Index(i)][kDelta];
-      const double e = settings_.trust_radius[kScheduledDelta];
-      fits &= stage.AddInputBound(kDelta, delta_hat - e, delta_hat + e, 2.0 * settings_.E_p[kScheduledDelta]);
-    }
+// states, road, trust region of the states, obstacles. (Stage 0 has only the first of them.)
+void LpvMpc::AddRows(const TrackingInput& input, int i) {
+  const bool bounded = settings_.trust_region && prediction_.exists() && i < settings_.horizon;
+  if (i < settings_.horizon) AddInputRows(i);
+  if (bounded) AddSteeringTrust(i);
+  if (i > 0) {  // the measured state cannot be changed
+    AddStateRows(input, i);
+    if (bounded) AddStateTrust(input.reference[Index(i)], i);
+    AddObstacleRows(input, i);
   }
-  if (i == 0) return;  // the measured state cannot be changed
+  // An obstacle for which there is no room must not be ignored: a row that cannot hold makes the problem infeasible.
+  if (!rows_.fits())
+    qp_.stages[Index(i)].rows.back() = {.C = QpState::Zero(), .D = Input::Zero(), .lo = 1.0, .hi = kNoBound};
+}
+
+void LpvMpc::AddInputRows(int i) {
+  for (int j = 0; j < kInputs; ++j) {
+    rows_.AddInputBound({.kind = ConstraintKind::kInput, .index = j, .step = i}, j, settings_.u_min[j],
+                        settings_.u_max[j]);
+    const QpState C = -QpState::Unit(kPreviousInput + j);
+    rows_.AddRow({.kind = ConstraintKind::kRate, .index = j, .step = i}, C, Input::Unit(j),
+                 -settings_.rate_max[j], settings_.rate_max[j]);
+  }
+}
+
+void LpvMpc::AddStateRows(const TrackingInput& input, int i) {
+  const State& z_ref = input.reference[Index(i)];
   for (int j = 0; j < kStates; ++j) {
     const double origin = j == kPsi ? 0.0 : z_ref[j];
-    fits &= stage.AddStateBound(j, settings_.z_min[j] - origin, settings_.z_max[j] - origin);
-    name(ConstraintKind::kState, j);
+    rows_.AddStateBound({.kind = ConstraintKind::kState, .index = j, .step = i}, j,
+                        settings_.z_min[j] - origin, settings_.z_max[j] - origin);
   }
-  VectorX normal = VectorX::Zero();
+  QpState normal = QpState::Zero();
   normal[kX] = -std::sin(z_ref[kPsi]);
   normal[kY] = std::cos(z_ref[kPsi]);
-  fits &= stage.AddRow(normal, Input::Zero(), input.road.right, input.road.left);
-  name(ConstraintKind::kRoad, 0);
-  if (settings_.trust_region && has_prediction_ && i < settings_.horizon) {
-    for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
-      const int state = kScheduledStates[j];
-      const double z_hat = predicted_z_[Index(i)][state] - z_ref[state];
-      const double e = settings_.trust_radius[static_cast<Eigen::Index>(j)];
-      fits &=
-          stage.AddStateBound(state, z_hat - e, z_hat + e, 2.0 * settings_.E_p[static_cast<Eigen::Index>(j)]);
-    }
+  rows_.AddRow({.kind = ConstraintKind::kRoad, .index = 0, .step = i}, normal, Input::Zero(),
+               input.road.right, input.road.left);
+}
+
+void LpvMpc::AddSteeringTrust(int i) {
+  const double delta_hat = prediction_.u()[Index(i)][kDelta];
+  const double e = trust_region_.Radius(kScheduledDelta);
+  rows_.AddInputBound({.kind = ConstraintKind::kTrust, .index = kStates + kDelta, .step = i}, kDelta,
+                      delta_hat - e, delta_hat + e, {.rho = 2.0 * settings_.E_p[kScheduledDelta]});
+}
+
+void LpvMpc::AddStateTrust(const State& z_ref, int i) {
+  for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
+    const int x = kScheduledStates[j];
+    const double z_hat = prediction_.z()[Index(i)][x] - z_ref[x];
+    const double e = trust_region_.Radius(j);
+    rows_.AddStateBound({.kind = ConstraintKind::kTrust, .index = x, .step = i}, x, z_hat - e, z_hat + e,
+                        {.rho = 2.0 * settings_.E_p[static_cast<Eigen::Index>(j)]});
   }
+}
+
+void LpvMpc::AddObstacleRows(const TrackingInput& input, int i) {
+  const State& z_ref = input.reference[Index(i)];
   for (const Obstacle& obstacle : input.obstacles) {
     const auto halfspace = ObstacleHalfSpace(obstacle, z_ref, settings_.obstacle_margin);
     if (!halfspace) continue;
-    VectorX C = VectorX::Zero();
+    QpState C = QpState::Zero();
     C[kX] = halfspace->a;
     C[kY] = halfspace->b;
     const double lo = halfspace->c - halfspace->a * z_ref[kX] - halfspace->b * z_ref[kY];
-    fits &= stage.AddRow(C, Input::Zero(), lo, kNoBound);
-    name(ConstraintKind::kObstacle, obstacle.id);
+    rows_.AddRow({.kind = ConstraintKind::kObstacle, .index = obstacle.id, .step = i}, C, Input::Zero(), lo,
+                 kNoBound);
   }
-  // An obstacle that no longer fits must not be ignored: a row that cannot hold makes the problem infeasible.
-  if (!fits) stage.rows.back() = {.C = VectorX::Zero(), .D = Input::Zero(), .lo = 1.0, .hi = kNoBound};
 }
 
 std::optional<ConstraintViolation> LpvMpc::DiagnoseInfeasibility() const {
@@ -165,15 +155,14 @@ std::optional<ConstraintViolation> LpvMpc::DiagnoseInfeasibility() const {
     return constraint.kind == ConstraintKind::kState || constraint.kind == ConstraintKind::kRoad ||
            constraint.kind == ConstraintKind::kObstacle;
   };
-  // Trust-region rows are soft already, and have no name of their own.
-  const auto gives_way = [&](std::size_t i, std::size_t j) {
-    return !qp_.stages[i].rows[j].soft() && holds_state(constraints_[i][j]);
+  const auto is_relaxed = [&](std::size_t i, std::size_t j) {
+    return !qp_.stages[i].rows[j].soft() && holds_state(rows_.constraint(i, j));
   };
   elastic_ = qp_;
   for (std::size_t i = 0; i < elastic_.stages.size(); ++i) {
     auto& stage = elastic_.stages[i];
     for (std::size_t j = 0; j < Index(stage.row_count); ++j) {
-      if (gives_way(i, j)) stage.rows[j].rho = kPenalty;
+      if (is_relaxed(i, j)) stage.rows[j].rho = kPenalty;
     }
   }
   if (elastic_solver_.Solve(elastic_).status != SolverStatus::kSolved) return std::nullopt;
@@ -181,8 +170,8 @@ std::optional<ConstraintViolation> LpvMpc::DiagnoseInfeasibility() const {
   for (std::size_t i = 0; i < elastic_.stages.size(); ++i) {
     for (std::size_t j = 0; j < Index(elastic_.stages[i].row_count); ++j) {
       const double slack = elastic_solver_.solution().stages[i].slack[j];
-      if (gives_way(i, j) && slack > largest.amount) {
-        largest = {.constraint = constraints_[i][j], .amount = slack};
+      if (is_relaxed(i, j) && slack > largest.amount) {
+        largest = {.constraint = rows_.constraint(i, j), .amount = slack};
       }
     }
   }
@@ -195,37 +184,16 @@ void LpvMpc::ReadPlan(const TrackingInput& input) {
     plan_.z[i] = input.reference[i] + solver_.solution().stages[i].x.head<kStates>();
     if (i < plan_.u.size()) plan_.u[i] = solver_.solution().stages[i].u;
   }
-  MeasureTrustRegion();
+  const bool bounded =
+      settings_.trust_region && prediction_.exists() && plan_.status == SolverStatus::kSolved;
+  const std::size_t last = plan_.u.size() - 1;
+  (void)trust_region_.Measure(prediction_, last, last, bounded, plan_);
 }
 
-void LpvMpc::MeasureTrustRegion() {
-  plan_.active_trust_rows = 0;
-  plan_.largest_slack = 0.0;
-  if (!settings_.trust_region || !has_prediction_ || plan_.status != SolverStatus::kSolved) return;
-  const auto measure = [&](double value, double predicted, std::size_t j) {
-    const double deviation =
-        std::abs(value - predicted) / settings_.trust_radius[static_cast<Eigen::Index>(j)];
-    if (deviation >= 1.0 - 1e-6) ++plan_.active_trust_rows;
-    plan_.largest_slack = std::max(plan_.largest_slack, deviation - 1.0);
-  };
-  for (std::size_t i = 0; i < plan_.u.size(); ++i) {
-    measure(plan_.u[i][kDelta], predicted_u_[i][kDelta], kScheduledDelta);
-    for (std::size_t j = 0; i > 0 && j < kScheduledStates.size(); ++j) {
-      measure(plan_.z[i][kScheduledStates[j]], predicted_z_[i][kScheduledStates[j]], j);
-    }
-  }
-}
-
-// ẑ_{i|k+1} = z*_{i+1|k}, û likewise (paper, eq:sch_pred). Without a plan the last prediction moves on by one
-// step.
+// ẑ_{i|k+1} = z*_{i+1|k}, û likewise (paper, eq:sch_pred). Without a plan the last prediction moves on by one step.
 void LpvMpc::PredictNext() {
-  if (plan_.status == SolverStatus::kSolved) {
-    std::ranges::copy(plan_.z, predicted_z_.begin());
-    std::ranges::copy(plan_.u, predicted_u_.begin());
-    has_prediction_ = true;
-  }
-  std::shift_left(predicted_z_.begin(), predicted_z_.end(), 1);
-  std::shift_left(predicted_u_.begin(), predicted_u_.end(), 1);
+  if (plan_.status == SolverStatus::kSolved) prediction_.Set(plan_);
+  prediction_.Shift();
 }
 
 }  // namespace control

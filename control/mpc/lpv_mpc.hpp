@@ -5,13 +5,15 @@
 // would cost, and the input last applied makes the rate limits rows of a stage.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <vector>
 
 #include "control/mpc/mpc_settings.hpp"
+#include "control/mpc/prediction.hpp"
+#include "control/mpc/row_writer.hpp"
 #include "control/mpc/tracking_controller.hpp"
-#include "control/qp/ocp_qp_solver.hpp"
+#include "control/mpc/trust_region.hpp"
+#include "control/mpc/vehicle_qp.hpp"
+#include "control/qp/solver.hpp"
 #include "control/vehicle/lpv_model.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
 
@@ -35,35 +37,38 @@ class LpvMpc final : public TrackingController {
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
   [[nodiscard]] const Plan& Step(const TrackingInput& input) override;
   void Reset() override;
-  // The row that needs the largest slack if the rows that hold states (bounds, road, obstacles) are made soft.
+  // The row that needs the largest slack if the rows that bound states, road and obstacles are made soft.
   [[nodiscard]] std::optional<ConstraintViolation> DiagnoseInfeasibility() const override;
   [[nodiscard]] bool SetQpObserver(const QpObserver& observer) override;
 
   // The QP of the last step, for recording and for tests.
-  [[nodiscard]] const OcpQp<8, 2>& qp() const { return qp_; }
+  [[nodiscard]] const VehicleQp& qp() const { return qp_; }
 
  private:
   void BuildQp(const TrackingInput& input);
-  void BuildRows(const TrackingInput& input, int i);
+  void AddRows(const TrackingInput& input, int i);
+  void AddInputRows(int i);
+  void AddStateRows(const TrackingInput& input, int i);
+  void AddSteeringTrust(int i);
+  void AddStateTrust(const State& z_ref, int i);
+  void AddObstacleRows(const TrackingInput& input, int i);
   void ReadPlan(const TrackingInput& input);
-  void MeasureTrustRegion();
   void PredictNext();
 
   LpvMpcSettings settings_;
   LpvModel model_;
-  OcpQp<8, 2> qp_;
-  std::vector<std::array<Constraint, kMaxRows>> constraints_;  // what the rows of each stage stand for
-  OcpQpSolver<8, 2> solver_;
-  // Room for DiagnoseInfeasibility, which must not take it in a control cycle.
-  mutable OcpQp<8, 2> elastic_;
-  mutable OcpQpSolver<8, 2> elastic_solver_;
-  OcpQpPoint<8, 2> guess_;
+  VehicleQp qp_;
+  RowWriter rows_;
+  VehicleQpSolver solver_;
+  // Work space of DiagnoseInfeasibility, which must not allocate it in a control cycle.
+  mutable VehicleQp elastic_;
+  mutable VehicleQpSolver elastic_solver_;
+  VehicleQpPoint warm_start_;
   Plan plan_;
-  QpObserver show_qp_;
-  bool has_guess_ = false;          // guess_ holds the last step's solution, shifted
-  bool has_prediction_ = false;     // false: no plan yet, schedule from the measured state
-  std::vector<State> predicted_z_;  // ẑ, û: the last plan, shifted to the present
-  std::vector<Input> predicted_u_;
+  QpObserver qp_observer_;
+  Prediction prediction_;
+  TrustRegion trust_region_;
+  bool has_warm_start_ = false;  // warm_start_ holds the last step's solution, shifted
 };
 
 }  // namespace control

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/qp/ocp_qp.hpp"
+#include "control/qp/problem.hpp"
 #include "control/road/keep_out.hpp"
 #include "control/vehicle/geometry.hpp"
 
@@ -90,7 +90,7 @@ void TrackingProblem::DecidePassing() {
   }
 }
 
-bool TrackingProblem::Bound(std::span<const State> z_hat) {
+bool TrackingProblem::BuildConstraints(std::span<const State> z_hat) {
   bool fits = obstacles_.size() <= PassingPlanner::kMostObstacles;
   double s = s_;
   for (std::size_t i = 1; i < z_hat.size(); ++i) {

@@ -3,7 +3,7 @@
 // obstacles. It keeps what has to last from step to step: the place on the course and the decisions.
 //
 //   task.Begin(z, obstacles);       // once a step
-//   task.Bound(z_hat);              // about a predicted trajectory, as often as there is a new one
+//   task.BuildConstraints(z_hat);   // about a predicted trajectory, as often as there is a new one
 //   for (const BodyRow& row : task.rows(i)) …
 #pragma once
 
@@ -43,7 +43,7 @@ class TrackingProblem {
   void Begin(const State& z, std::span<const Obstacle> obstacles);
   // False if a step has more rows than there is room for, or there are more obstacles than can be decided about: then no
   // plan may be made.
-  [[nodiscard]] bool Bound(std::span<const State> z_hat);
+  [[nodiscard]] bool BuildConstraints(std::span<const State> z_hat);
   // The vehicle may be anywhere, and nothing is decided.
   void Reset();
 
@@ -54,7 +54,7 @@ class TrackingProblem {
   void Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const;
   [[nodiscard]] std::span<const State> reference() const { return z_ref_; }
   [[nodiscard]] std::span<const Input> reference_input() const { return u_ref_; }
-  // Of step i ≥ 1; they belong to the task until the next Bound.
+  // Of step i ≥ 1; they belong to the task until the next BuildConstraints.
   [[nodiscard]] std::span<const BodyRow> rows(std::size_t i) const { return {rows_[i].data(), counts_[i]}; }
 
  private:

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/mpc/lpv_affine_terms.hpp"
-
 namespace control {
-
-using namespace lpv_affine;
 
 AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& course,
                        const LpvAffineSettings& problem, const AffineNmpcSettings& settings)
     : settings_(settings),
-      radii_(problem.trust_radius),
+      trust_region_(problem.trust_radius),
       model_(BlendedModel(vehicle), problem.t_s),
       task_(vehicle, course, problem),
       problem_(vehicle, problem),
@@ -29,7 +25,7 @@ AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& cour
 }
 
 void AffineNmpc::Reset() {
-  prediction_.Drop();
+  prediction_.Clear();
   has_duals_ = false;
   task_.Reset();
 }
@@ -37,7 +33,7 @@ void AffineNmpc::Reset() {
 const Plan& AffineNmpc::Step(const ControllerInput& input) {
   plan_.iterations = 0;
   plan_.relaxation = {};
-  // A place on the course or a side that comes of such a value would be one by chance, and stay.
+  // A non-finite input would corrupt the stored place and passing decisions for good.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
     prediction_.Shift();
@@ -47,7 +43,7 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
   if (task_.waiting()) {
     task_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
-    prediction_.Drop();
+    prediction_.Clear();
     has_duals_ = false;
   } else {
     Solve(input.u_previous);
@@ -55,13 +51,17 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
   return plan_;
 }
 
-// A round that fails leaves the plan before it.
+// Solves in rounds. One that fails leaves the plan before it.
 void AffineNmpc::Solve(const Input& u_previous) {
-  prediction_.Begin(task_, model_);
+  if (prediction_.exists()) {
+    prediction_.RollOut(task_.z(), model_);
+  } else {
+    prediction_.Follow(task_.z(), task_.reference(), task_.reference_input());
+  }
   for (int round = 0; round < settings_.rounds; ++round) {
     SolverStatus status = SolverStatus::kNumericalFailure;
-    // An obstacle that finds no room in the problem must not be ignored.
-    if (task_.Bound(prediction_.z())) {
+    // An obstacle for which the problem has no room must not be ignored.
+    if (task_.BuildConstraints(prediction_.z())) {
       const AffineNmpcProblem last = problem_;
       problem_.Set(task_, u_previous);
       point_ = Start(last, round == 0 ? 1 : 0);
@@ -73,7 +73,7 @@ void AffineNmpc::Solve(const Input& u_previous) {
     if (round == 0 || has_duals_) plan_.status = status;
     if (!has_duals_) break;
     const double change = ReadPlan();
-    prediction_.Take(plan_);
+    prediction_.Set(plan_);
     if (change <= settings_.converged) break;
   }
   prediction_.Shift();
@@ -119,18 +119,13 @@ NonlinearPoint AffineNmpc::Start(const AffineNmpcProblem& last, int shift) const
 
 // Returns the largest change of a scheduling variable against the prediction, in radii.
 double AffineNmpc::ReadPlan() {
-  double change = 0.0;
-  const auto measure = [&](double value, double predicted, std::size_t j) {
-    change = std::max(change, std::abs(value - predicted) / radii_[static_cast<Eigen::Index>(j)]);
-  };
   plan_.z[0] = task_.z();
   for (std::size_t i = 1; i < plan_.z.size(); ++i) {
     plan_.z[i] = problem_.StateOf(point_.x, static_cast<int>(i));
     plan_.u[i - 1] = problem_.InputOf(point_.x, static_cast<int>(i) - 1);
   }
-  prediction_.Compare(plan_, measure);
   MeasureRelaxation();
-  return change;
+  return trust_region_.Measure(prediction_, plan_.u.size(), plan_.u.size() - 1, false, plan_);
 }
 
 void AffineNmpc::MeasureRelaxation() {

@@ -16,6 +16,7 @@
 #include "control/mpc/lpv_affine_settings.hpp"
 #include "control/mpc/prediction.hpp"
 #include "control/mpc/tracking_problem.hpp"
+#include "control/mpc/trust_region.hpp"
 #include "control/nmpc/affine_nmpc_problem.hpp"
 #include "control/nmpc/ipopt_solver.hpp"
 #include "control/road/road_profile.hpp"
@@ -53,7 +54,7 @@ class AffineNmpc final : public Controller {
   void MeasureRelaxation();
 
   AffineNmpcSettings settings_;
-  Eigen::Vector4d radii_;
+  TrustRegion trust_region_;
   DiscreteModel model_;
   TrackingProblem task_;
   AffineNmpcProblem problem_;

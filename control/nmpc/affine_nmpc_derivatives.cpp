@@ -1,12 +1,8 @@
 // The derivatives of AffineNmpcProblem's rows, and where they differ from zero.
-#include "control/mpc/lpv_affine_terms.hpp"
 #include "control/nmpc/affine_nmpc_problem.hpp"
 #include "control/vehicle/geometry.hpp"
 
 namespace control {
-
-using lpv_affine::At;
-using lpv_affine::Index;
 
 namespace {
 

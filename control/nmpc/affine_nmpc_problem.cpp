@@ -4,14 +4,10 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "control/mpc/lpv_affine_terms.hpp"
-#include "control/qp/ocp_qp.hpp"
+#include "control/qp/problem.hpp"
 #include "control/vehicle/geometry.hpp"
 
 namespace control {
-
-using lpv_affine::At;
-using lpv_affine::Index;
 
 namespace {
 

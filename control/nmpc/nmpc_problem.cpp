@@ -34,15 +34,6 @@ constexpr std::array kCurvedStates{Place{kNu, kUpsilon}, Place{kPsi, kUpsilon}, 
                                    Place{kOmega, kUpsilon}, Place{kOmega, kNu}};
 constexpr std::array kCurvedWithDelta{kUpsilon, kNu, kOmega};
 
-std::size_t Index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-template <typename Vector>
-Eigen::Map<const Vector> At(std::span<const double> x, int i) {
-  return Eigen::Map<const Vector>(x.subspan(Index(i), Vector::SizeAtCompileTime).data());
-}
-
 }  // namespace
 
 NmpcProblem::NmpcProblem(const VehicleParameters& vehicle, const MpcSettings& settings)

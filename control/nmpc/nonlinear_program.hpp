@@ -3,6 +3,8 @@
 //   min f(x)   s.t.  lo ≤ g(x) ≤ hi,  lo ≤ x ≤ hi
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -38,5 +40,11 @@ class NonlinearProgram {
   virtual void Hessian(std::span<const double> x, double sigma, std::span<const double> lambda,
                        std::span<double> values) const = 0;
 };
+
+// The vector that begins at x[i].
+template <typename Vector>
+[[nodiscard]] Eigen::Map<const Vector> At(std::span<const double> x, int i) {
+  return Eigen::Map<const Vector>(x.subspan(static_cast<std::size_t>(i), Vector::SizeAtCompileTime).data());
+}
 
 }  // namespace control

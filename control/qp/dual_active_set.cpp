@@ -8,8 +8,8 @@ namespace control {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Far above round-off: a ray that is none proves nothing and does no harm, but a dependent row that joins L leaves λ
-// without digits.
+// Far above round-off: a false ray proves nothing and does no harm, but a dependent row that joins L leaves λ without
+// digits.
 constexpr double kDependent = 1e-8;
 constexpr double kDependentAfterRestart = 1e-13;
 constexpr int kChangesPerRow = 10;
@@ -38,7 +38,7 @@ void DualActiveSet::Restart() {
   free_count_ = 0;
   dependent_ = kDependentAfterRestart;
   for (int j = 0; j < size_; ++j) {
-    rows_[At(j)].piece = Piece::kRest;
+    rows_[At(j)].piece = Piece::kFixed;
     rows_[At(j)].place = -1;
     lambda_[j] = 0.0;
   }
@@ -85,18 +85,18 @@ DualActiveSet::Result DualActiveSet::Solve(double tolerance) {
   }
 }
 
-// The value at λ = 0 that, with M, gives this one at λ.
+// The value at λ = 0 that, with M, yields this one at λ.
 void DualActiveSet::Correct(int j, double value) {
   g_0_[j] = value + M_.row(j).head(size_).dot(lambda_.head(size_));
 }
 
 double DualActiveSet::Residual(int j) const {
   const Row& row = rows_[At(j)];
-  const double give = row.piece == Piece::kGiveWay ? (lambda_[j] - row.side * row.sigma) / row.rho : 0.0;
-  return g_[j] - row.Bound() - give;
+  const double slack = row.piece == Piece::kRelaxed ? (lambda_[j] - row.side * row.sigma) / row.rho : 0.0;
+  return g_[j] - row.Bound() - slack;
 }
 
-// Of a row at rest: by how much g lies outside what its λ allows.
+// The distance by which g of a fixed row lies outside what its λ allows.
 double DualActiveSet::Violation(int j) const {
   const Row& row = rows_[At(j)];
   if (lambda_[j] == 0.0) return std::max(g_[j] - row.hi, row.lo - g_[j]);
@@ -169,15 +169,15 @@ void DualActiveSet::SolveTransposed() {
   }
 }
 
-// Frees a row at rest, with λ where it is.
+// Frees a fixed row, with λ where it is.
 DualActiveSet::Result DualActiveSet::Free(int j) {
   Row& row = rows_[At(j)];
   if (lambda_[j] == 0.0) row.side = g_[j] > row.hi ? 1.0 : -1.0;
   const double sign = g_[j] > row.Bound() ? 1.0 : -1.0;  // of λ's change
   if (lambda_[j] == 0.0) {
-    row.piece = row.sigma > 0.0 ? Piece::kHold : Piece::kGiveWay;
+    row.piece = row.sigma > 0.0 ? Piece::kHeld : Piece::kRelaxed;
   } else {
-    row.piece = sign == row.side ? Piece::kGiveWay : Piece::kHold;
+    row.piece = sign == row.side ? Piece::kRelaxed : Piece::kHeld;
   }
   while (!Append(j)) {
     if (++changes_ > kChangesPerRow * capacity_) return Result::kStuck;
@@ -187,14 +187,14 @@ DualActiveSet::Result DualActiveSet::Free(int j) {
     SolveTransposed();
     for (int i = 0; i < free_count_; ++i) {
       Row& compensating = rows_[At(free_[At(i)])];
-      // A row that gives way has no part in a ray but round-off.
-      if (compensating.piece == Piece::kHold) compensating.direction = y_[i];
+      // A relaxed row has no part in a ray but round-off.
+      if (compensating.piece == Piece::kHeld) compensating.direction = y_[i];
     }
     row.direction = sign;
     const Step step = Advance(kInfinity, j);
     if (step.blocking < 0) return Result::kInfeasible;
-    MeetEnd(step.blocking);
-    if (row.piece == Piece::kRest || row.place >= 0) break;
+    CrossBreakpoint(step.blocking);
+    if (row.piece == Piece::kFixed || row.place >= 0) break;
   }
   return Result::kSolved;
 }
@@ -215,7 +215,7 @@ bool DualActiveSet::Settle() {
     const double left = step.blocking < 0 ? 0.0 : 1.0 - step.length;
     for (int i = 0; i < free_count_; ++i) rows_[At(free_[At(i)])].residual *= left;
     if (step.blocking < 0) return true;
-    MeetEnd(step.blocking);
+    CrossBreakpoint(step.blocking);
   }
   return true;
 }
@@ -228,7 +228,7 @@ DualActiveSet::Step DualActiveSet::Advance(double limit, int joining) {
     const Row& row = rows_[At(j)];
     const double size = row.side * lambda_[j], change = row.side * row.direction;
     if (change == 0.0) return;
-    const bool hold = row.piece == Piece::kHold;
+    const bool hold = row.piece == Piece::kHeld;
     const double towards = change < 0.0 ? (hold ? 0.0 : row.sigma) : (hold ? row.sigma : kInfinity);
     const double length = std::max(0.0, (towards - size) / change);
     if (length < step.length) {
@@ -246,8 +246,8 @@ DualActiveSet::Step DualActiveSet::Advance(double limit, int joining) {
   return step;
 }
 
-// λ_j has come to an end of its piece: the next piece, or rest.
-void DualActiveSet::MeetEnd(int j) {
+// λ_j has reached a breakpoint: it continues on the next piece, or stays fixed there.
+void DualActiveSet::CrossBreakpoint(int j) {
   Row& row = rows_[At(j)];
   const bool falling = row.side * row.direction < 0.0;
   if (falling && lambda_[j] == 0.0 && row.lo == row.hi) {
@@ -256,11 +256,11 @@ void DualActiveSet::MeetEnd(int j) {
   }
   Remove(j);
   const Piece before = row.piece;
-  row.piece = Piece::kRest;
+  row.piece = Piece::kFixed;
   if (lambda_[j] == 0.0) return;
-  if (before == Piece::kHold && row.rho == 0.0) return;
-  row.piece = before == Piece::kHold ? Piece::kGiveWay : Piece::kHold;
-  if (!Append(j)) row.piece = Piece::kRest;
+  if (before == Piece::kHeld && row.rho == 0.0) return;
+  row.piece = before == Piece::kHeld ? Piece::kRelaxed : Piece::kHeld;
+  if (!Append(j)) row.piece = Piece::kFixed;
 }
 
 }  // namespace control

@@ -3,15 +3,15 @@
 //   min over λ   ½ λᵀM λ − g_0ᵀλ + Σ_j ψ_j(λ_j)
 //
 // g_0 holds the rows' values at λ = 0, g = g_0 − M λ those at λ; M = G H⁻¹ Gᵀ with the rows G and the primal's
-// Hessian H. λ_j has a sign: positive where the row presses on hi, negative on lo. ψ_j is the convex conjugate
+// Hessian H. λ_j has a sign: positive where the row is active at hi, negative at lo. ψ_j is the convex conjugate
 // of the row's penalty: λ hi (λ lo where λ < 0), and for |λ| beyond σ (soft rows) (|λ| − σ)² / (2ρ) more; a
 // hard row is one with σ = ∞. So softened rows need no variable of their own: they add 1/ρ to M's diagonal
-// where they give way. Optimal is
+// where they are relaxed. Optimal is
 //   λ = 0: lo ≤ g ≤ hi;   0 < λ < σ: g = hi;   λ ≥ σ: g = hi + (λ − σ) / ρ;   and the like on lo.
 //
 // λ moves through pieces on which ψ is quadratic. On the rows that are free to move the factor
-// L Lᵀ = M + diag(1/ρ) is kept and changed a row at a time; every step lowers the cost, until a λ meets the end
-// of its piece. A row without curvature left gives a ray: if nothing stops it, no point satisfies the rows, and
+// L Lᵀ = M + diag(1/ρ) is kept and changed a row at a time; every step lowers the cost, until a λ meets a
+// breakpoint, the end of its piece. A row without curvature left yields a ray: if nothing stops it, no point satisfies the rows, and
 // the ray's λ are the proof.
 //
 // Source: D. Goldfarb, A. Idnani, A numerically stable dual method for solving strictly convex quadratic
@@ -36,39 +36,39 @@ class DualActiveSet {
   explicit DualActiveSet(int capacity);
 
   void Clear();
-  // λ = 0 again, and from now on rows that nearly depend on each other count as independent: their λ have few digits,
-  // but it is worth a try where the ray proves nothing.
+  // Sets λ = 0, and from now on counts nearly dependent rows as independent: their λ have few digits, but it is worth a
+  // try where the ray proves nothing.
   void Restart();
   [[nodiscard]] int size() const { return size_; }
 
-  // Another row with λ = 0, and its index. `value` is its entry of g_0; its entries of M are to be given by
-  // SetM before anything else is asked. ρ < 0: hard.
+  // Adds a row with λ = 0 and returns its index. `value` is its entry of g_0; its entries of M must be set by SetM before
+  // anything else is called. ρ < 0: hard.
   int Add(double lo, double hi, double rho, double sigma, double value);
   void SetM(int i, int j, double value) { M_(i, j) = M_(j, i) = value; }
   // Rows violated by no more than the tolerance count as satisfied.
   Result Solve(double tolerance);
 
   [[nodiscard]] double lambda(int j) const { return lambda_[j]; }
-  // A better figure of the row's value at λ than M gives, for the next Solve.
+  // Sets the row's value at λ more accurately than M yields it, for the next Solve.
   void Correct(int j, double value);
   [[nodiscard]] double ray(int j) const { return rows_[At(j)].direction; }
   [[nodiscard]] int changes() const { return changes_; }
 
  private:
   enum class Piece : std::uint8_t {
-    kRest,     // λ stays at 0 or at ±σ
-    kHold,     // |λ| in [0, σ]
-    kGiveWay,  // |λ| in [σ, ∞)
+    kFixed,    // λ stays at 0 or at ±σ
+    kHeld,     // |λ| in [0, σ]
+    kRelaxed,  // |λ| in [σ, ∞)
   };
   struct Row {
     double lo, hi, rho, sigma;  // sigma = ∞: hard
     double direction = 0.0, residual = 0.0;
     double side = 1.0;  // 1: at hi, −1: at lo
-    Piece piece = Piece::kRest;
+    Piece piece = Piece::kFixed;
     int place = -1;  // among the free rows; −1: not free
 
     [[nodiscard]] double Bound() const { return side > 0.0 ? hi : lo; }
-    [[nodiscard]] double Compliance() const { return piece == Piece::kGiveWay ? 1.0 / rho : 0.0; }
+    [[nodiscard]] double Compliance() const { return piece == Piece::kRelaxed ? 1.0 / rho : 0.0; }
   };
   struct Step {
     double length;
@@ -88,7 +88,7 @@ class DualActiveSet {
   [[nodiscard]] Result Free(int j);
   [[nodiscard]] bool Settle();
   Step Advance(double limit, int joining);
-  void MeetEnd(int j);
+  void CrossBreakpoint(int j);
 
   int capacity_, size_ = 0, free_count_ = 0, changes_ = 0;
   double dependent_;  // a pivot below this share of its diagonal entry is taken for round-off

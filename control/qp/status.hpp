@@ -1,7 +1,8 @@
-// How the solution of an optimisation problem ended.
+// How the solution of an optimisation problem ended, and what may end it early.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 namespace control {
 
@@ -11,5 +12,8 @@ enum class SolverStatus : std::uint8_t {
   kIterationLimit,    // stopped before convergence
   kNumericalFailure,  // the factorisation broke down, or the data held a value that is not finite
 };
+
+// Asked before each iteration; false ends the solve. The caller owns the clock.
+using TimeLeft = std::function<bool()>;
 
 }  // namespace control

@@ -11,8 +11,7 @@ double WrapAngle(double angle) {
 }
 
 double UnwrapAngle(double angle, double near) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  return angle + kTurn * std::round((near - angle) / kTurn);
+  return near + WrapAngle(angle - near);
 }
 
 }  // namespace control

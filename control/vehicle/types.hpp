@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace control {
 
@@ -41,7 +42,12 @@ struct RoadBounds {
 // Wraps an angle to (-π, π].
 [[nodiscard]] double WrapAngle(double angle);
 
-// The angle in the turn that is nearest to `near`; itself, to the bit, if it is within π of it.
+// The angle, plus or minus full turns, that is within π of `near`.
 [[nodiscard]] double UnwrapAngle(double angle, double near);
+
+// A step, stage or row as an index of a container.
+[[nodiscard]] inline std::size_t Index(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace control

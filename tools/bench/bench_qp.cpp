@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "control/qp/ocp_qp_solver.hpp"
+#include "control/qp/solver.hpp"
 #include "tools/bench/qp_instance.hpp"
 #include "tools/bench/times.hpp"
 
@@ -85,7 +85,7 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
     } else {
       ++line.failed;
     }
-    series = result.MakesGuess() ? named.series : "";
+    series = result.CanWarmStart() ? named.series : "";
   }
   return line;
 }
@@ -97,7 +97,7 @@ nlohmann::ordered_json ToJson(int horizon, const char* start, const Line& line) 
           {"solved", line.solved},
           {"infeasible", line.infeasible},
           {"failed", line.failed},
-          {"base", line.by_method[0]},
+          {"unconstrained", line.by_method[0]},
           {"active_set", line.by_method[1]},
           {"interior_point", line.by_method[2]},
           {"mean_iterations", line.iterations / line.instances},
@@ -123,7 +123,7 @@ void BenchQp(const BenchQpOptions& options, std::ostream& out) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!options.json) {
     out << fmt::format("{:76}{:28}{}\n", "", "solve [us]", "build and solve [us]")
-        << "   N  start  solved infeasible failed   base active  inter iterations       KKT"
+        << "   N  start  solved infeasible failed uncons active  inter iterations       KKT"
         << "    median      p99      max    median      p99      max\n";
   }
   for (const auto& [horizon, instances] : by_horizon) {

@@ -5,14 +5,14 @@
 //   Q_i q_i                            i = 0..N, Q_i its diagonal
 //   R_i r_i                            i = 0..N−1, R_i its diagonal
 //   n_i, and n_i times C D lo hi ρ     i = 0..N; with σ at the end, where rows have it
-// A bound beyond ±1e19 is absent; ρ < 0 marks a hard row. For the symbols see control/qp/ocp_qp.hpp.
+// A bound beyond ±1e19 is absent; ρ < 0 marks a hard row. For the symbols see control/qp/problem.hpp.
 #pragma once
 
 #include <filesystem>
 #include <ostream>
 #include <vector>
 
-#include "control/qp/ocp_qp.hpp"
+#include "control/qp/problem.hpp"
 
 namespace tools {
 

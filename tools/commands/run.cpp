@@ -63,7 +63,7 @@ control::QpObserver Recorder(const std::filesystem::path& folder) {
           fmt::format("--record-qp: {} holds problems of another run", config::PlaceName(folder)));
     }
   }
-  return [folder, count = 0](const control::OcpQp<8, 2>& qp) mutable {
+  return [folder, count = 0](const control::VehicleQp& qp) mutable {
     if (count == 0) MakeFolder(folder);
     std::ostringstream text;
     WriteQpInstance(qp, text);

@@ -60,7 +60,8 @@ TEST(Allocations, SolverTakesNone) {
   ASSERT_TRUE(infeasible.stages[4].AddStateBound(2, 90.0, kNoBound));
   ASSERT_TRUE(exact.stages[4].AddStateBound(2, 90.0, kNoBound, 1.0, 10.0));
   broken.stages[2].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  OcpQpSolver<8, 2> solver(qp.horizon()), impatient(qp.horizon(), {.max_iterations = 2, .max_known_rows = 0});
+  OcpQpSolver<8, 2> solver(qp.horizon()),
+      impatient(qp.horizon(), {.max_iterations = 2, .max_working_set = 0});
   const OcpQpPoint<8, 2> guess(qp.horizon());
   const std::size_t before = Taken();
   const SolverStatus cold = solver.Solve(qp).status;

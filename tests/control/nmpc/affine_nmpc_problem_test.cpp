@@ -27,7 +27,7 @@ class AffineNmpcProblemTest : public ::testing::Test {
     task_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->course(), settings_);
     problem_ = std::make_unique<AffineNmpcProblem>(VehicleParameters{}, settings_);
     task_->Begin(loop_->z(), loop_->obstacles());
-    EXPECT_TRUE(task_->Bound(task_->reference()));
+    EXPECT_TRUE(task_->BuildConstraints(task_->reference()));
     problem_->Set(*task_, {0.02, 0.3});
     x_ = random_.Filled<Eigen::Matrix<double, 400, 1>>(0.5).head(problem_->variables());
     for (int i = 1; i <= settings_.horizon; ++i) x_[problem_->StateAt(i) + kUpsilon] += 5.0 + i;

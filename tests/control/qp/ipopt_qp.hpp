@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "control/qp/ocp_qp.hpp"
+#include "control/qp/problem.hpp"
 
 namespace control::testing {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/qp/ocp_qp_impl.hpp"
+#include "control/qp/kkt.hpp"
 #include "tests/control/random.hpp"
 
 namespace control::testing {

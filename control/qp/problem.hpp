@@ -8,7 +8,7 @@
 //
 // A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 it is convex.
 //
-// With σ = 0 a soft row gives way a little as soon as holding it costs anything. With σ > 0 the penalty is
+// With σ = 0 a soft row is violated a little as soon as it costs anything to hold. With σ > 0 the penalty is
 // exact: an optimum with these rows hard whose multipliers λ_lo + λ_hi are each at most σ is the optimum with
 // them soft, too. So no row that can hold is violated if σ is above them. In a violated row
 // λ_lo + λ_hi = σ + ρ ε.
@@ -16,8 +16,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -41,7 +41,7 @@ struct OcpQpRow {
 
   [[nodiscard]] bool soft() const { return rho >= 0.0; }
   [[nodiscard]] bool exact() const { return soft() && sigma > 0.0; }  // its slack has the bound ε ≥ 0
-  [[nodiscard]] bool weightless() const { return rho == 0.0 && sigma == 0.0; }  // costs nothing to violate
+  [[nodiscard]] bool has_zero_penalty() const { return rho == 0.0 && sigma == 0.0; }
   [[nodiscard]] bool has_lo() const { return lo > -kNoBound; }
   [[nodiscard]] bool has_hi() const { return hi < kNoBound; }
 };
@@ -61,7 +61,7 @@ struct OcpQpStage {
   int row_count = 0;
 
   void ClearRows() { row_count = 0; }
-  // lo ≤ x[index] ≤ hi and lo ≤ u[index] ≤ hi. False, and nothing added, if the stage is full.
+  // lo ≤ x[index] ≤ hi and lo ≤ u[index] ≤ hi. If the stage is full they return false and add nothing.
   [[nodiscard]] bool AddStateBound(int index, double lo, double hi, double rho = -1.0, double sigma = 0.0);
   [[nodiscard]] bool AddInputBound(int index, double lo, double hi, double rho = -1.0, double sigma = 0.0);
   // lo ≤ C x + D u ≤ hi.
@@ -79,61 +79,73 @@ struct OcpQp {
   std::vector<OcpQpStage<kNx, kNu>> stages;
 };
 
-// Multipliers of a row: λ_lo of C x + D u + ε ≥ lo, λ_hi of C x + D u − ε ≤ hi; both ≥ 0. That
-// of ε ≥ 0, where σ > 0, follows from them: λ_ε = ρ ε + σ − λ_lo − λ_hi.
-struct RowMultiplier {
-  double lo = 0.0;
-  double hi = 0.0;
+template <int kNx, int kNu>
+bool OcpQpStage<kNx, kNu>::AddStateBound(int index, double lo, double hi, double rho, double sigma) {
+  if (row_count == kMaxRows) return false;
+  Row& row = rows[static_cast<std::size_t>(row_count++)];
+  row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = index};
+  row.C[index] = 1.0;
+  return true;
+}
 
-  // Of λ_hi − λ_lo, where one of them is zero.
-  [[nodiscard]] static RowMultiplier OfDifference(double lambda) {
-    return {.lo = std::max(0.0, -lambda), .hi = std::max(0.0, lambda)};
+template <int kNx, int kNu>
+bool OcpQpStage<kNx, kNu>::AddInputBound(int index, double lo, double hi, double rho, double sigma) {
+  if (row_count == kMaxRows) return false;
+  Row& row = rows[static_cast<std::size_t>(row_count++)];
+  row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = kNx + index};
+  row.D[index] = 1.0;
+  row.holds_input = true;
+  return true;
+}
+
+template <int kNx, int kNu>
+bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
+                                  const Eigen::Matrix<double, kNu, 1>& D, double lo, double hi, double rho,
+                                  double sigma) {
+  if (row_count == kMaxRows) return false;
+  Row& row = rows[static_cast<std::size_t>(row_count++)];
+  row = Row{.C = C, .D = D, .lo = lo, .hi = hi, .rho = rho, .sigma = sigma};
+  row.holds_input = !D.isZero(0.0);
+  int entries = 0;
+  for (int k = 0; k < kNx + kNu; ++k) {
+    const double entry = k < kNx ? C[k] : D[k - kNx];
+    if (entry != 0.0) row.unit = ++entries == 1 && entry == 1.0 ? k : Row::kGeneral;
   }
-  // More than an interior point leaves of a multiplier whose row does not.
-  [[nodiscard]] bool Presses() const { return std::max(lo, hi) > 1e-6; }
-};
+  return true;
+}
 
-// A primal-dual point. π_i is the multiplier of the dynamics that give x_i (i ≥ 1); π_0 is unused.
+// True if every number is finite, but for the infinite bounds that are absent, and no σ negative. Comparisons alone
+// would not do: a bound that is not a number looks absent, a weight that is not one looks like a hard row's.
 template <int kNx, int kNu>
-struct OcpQpPoint {
-  struct Stage {
-    Eigen::Matrix<double, kNx, 1> x = Eigen::Matrix<double, kNx, 1>::Zero();
-    Eigen::Matrix<double, kNu, 1> u = Eigen::Matrix<double, kNu, 1>::Zero();
-    Eigen::Matrix<double, kNx, 1> pi = Eigen::Matrix<double, kNx, 1>::Zero();
-    std::array<RowMultiplier, kMaxRows> lambda{};
-    std::array<double, kMaxRows> slack{};  // ε
-  };
-  explicit OcpQpPoint(int horizon) : stages(static_cast<std::size_t>(horizon) + 1) {}
-  // A guess for the problem one stage later. The last two stages keep their own: the rows of stage N are not those of
-  // stage N − 1.
-  void Shift() { std::copy(stages.begin() + 1, stages.end() - 1, stages.begin()); }
-
-  std::vector<Stage> stages;
-};
-
-// The largest violation, in absolute terms, of each of the conditions of optimality (Karush, Kuhn, Tucker).
-struct KktResidual {
-  double stationarity = 0.0;     // gradient of the Lagrangian with respect to x, u and, where σ = 0, ε
-  double dynamics = 0.0;         // x_0 and x_{i+1} = A x + B u + c
-  double rows = 0.0;             // lo − ε ≤ C x + D u ≤ hi + ε, and ε ≥ 0 where σ > 0
-  double multipliers = 0.0;      // λ ≥ 0, λ_ε among them
-  double complementarity = 0.0;  // λ times its row's distance to the bound
-
-  [[nodiscard]] double Max() const {
-    return std::max({stationarity, dynamics, rows, multipliers, complementarity});
+[[nodiscard]] bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
+  // Sums of zero times each number: zero, or not a number. Several sums, so that none waits for another.
+  Eigen::Matrix<double, kNx, 1> zero_x = 0.0 * qp.x0, zero_a = Eigen::Matrix<double, kNx, 1>::Zero();
+  Eigen::Matrix<double, kNu, 1> zero_u = Eigen::Matrix<double, kNu, 1>::Zero();
+  double zero = 0.0;
+  bool ordered = true;
+  for (std::size_t i = 0; i < qp.stages.size(); ++i) {
+    const auto& stage = qp.stages[i];
+    zero_x += 0.0 * stage.Q + 0.0 * stage.q;
+    if (i + 1 < qp.stages.size()) {
+      for (int k = 0; k < kNx; k += 2) {
+        zero_a += 0.0 * stage.A.col(k);
+        if (k + 1 < kNx) zero_x += 0.0 * stage.A.col(k + 1);
+      }
+      for (int k = 0; k < kNu; ++k) zero_a += 0.0 * stage.B.col(k);
+      zero_x += 0.0 * stage.c;
+      zero_u += 0.0 * stage.R + 0.0 * stage.r;
+    }
+    for (std::size_t j = 0; j < static_cast<std::size_t>(stage.row_count); ++j) {
+      const auto& row = stage.rows[j];
+      ordered = ordered && (row.lo < kNoBound) && (row.hi > -kNoBound) && (row.sigma >= 0.0);
+      zero += 0.0 * row.rho + 0.0 * row.sigma;
+      zero_a += 0.0 * row.C;
+      zero_u += 0.0 * row.D;
+    }
   }
-};
+  return ordered && zero + zero_x.sum() + zero_a.sum() + zero_u.sum() == 0.0;
+}
 
-template <int kNx, int kNu>
-[[nodiscard]] KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point);
-
-template <int kNx, int kNu>
-[[nodiscard]] double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point);
-
-// True if the multipliers λ ≥ 0 of the hard rows prove that no input sequence satisfies them all (Farkas'
-// lemma): the λ-weighted sum of the rows, reduced to the inputs alone by the adjoint of the dynamics, is
-// negative for every input within its own hard bounds.
-template <int kNx, int kNu>
-[[nodiscard]] bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point);
+extern template struct OcpQpStage<8, 2>;
 
 }  // namespace control

@@ -1,4 +1,6 @@
-#include "control/qp/ocp_qp_solver_impl.hpp"
+#include "control/qp/solver.hpp"
+
+#include "control/qp/kkt.hpp"
 
 namespace control {
 

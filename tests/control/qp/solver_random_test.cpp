@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/qp/ocp_qp_solver_impl.hpp"
+#include "control/qp/solver.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/qp/ipopt_qp.hpp"
 #include "tests/control/qp/random_qp.hpp"
@@ -24,7 +24,7 @@ double CostGivenTo(const testing::SparseQp& flat, const OcpQp<kNx, kNu>& qp, con
 
 template <int kNx, int kNu>
 void ExpectIpoptsOptimum(const OcpQp<kNx, kNu>& qp, int instance) {
-  OcpQpSolver<kNx, kNu> interior_point(qp.horizon(), {.max_known_rows = 0}), solver(qp.horizon());
+  OcpQpSolver<kNx, kNu> interior_point(qp.horizon(), {.max_working_set = 0}), solver(qp.horizon());
   const auto solve = [&](OcpQpSolver<kNx, kNu>& by) {
     ASSERT_EQ(by.Solve(qp).status, SolverStatus::kSolved) << instance;
     EXPECT_LT(EvaluateKkt(qp, by.solution()).Max(), 1e-6) << instance;
@@ -89,7 +89,7 @@ void ExpectProofOfInfeasibility(Random& random, int instance, const RandomQpOpti
   OcpQp<kNx, kNu> qp = RandomQp<kNx, kNu>(random, options);
   const double beyond = std::pow(10.0, random.Uniform(-3.0, 1.0));
   testing::MakeInfeasible(random, qp, beyond);
-  OcpQpSolver<kNx, kNu> interior_point(qp.horizon(), {.max_known_rows = 0}), solver(qp.horizon());
+  OcpQpSolver<kNx, kNu> interior_point(qp.horizon(), {.max_working_set = 0}), solver(qp.horizon());
   for (auto* by : {&interior_point, &solver}) {
     EXPECT_EQ(by->Solve(qp).status, SolverStatus::kInfeasible) << instance << ": beyond reach by " << beyond;
     EXPECT_TRUE(ProvesInfeasible(qp, by->solution())) << instance;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <rapidcheck/gtest.h>
 
-#include "control/qp/ocp_qp_solver_impl.hpp"
+#include "control/qp/solver.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/qp/ipopt_qp.hpp"
 #include "tests/control/qp/random_qp.hpp"

@@ -1,9 +1,9 @@
-#include "control/qp/ocp_qp.hpp"
+#include "control/qp/kkt.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "control/qp/ocp_qp_impl.hpp"
+#include "control/qp/problem.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/qp/random_qp.hpp"
 

@@ -1,75 +1,33 @@
-// Definitions of ocp_qp.hpp's templates; include where they are instantiated.
+// The conditions of optimality (Karush, Kuhn, Tucker) of an OcpQp, its cost, and the proof that it has no solution.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
-#include "control/qp/ocp_qp.hpp"
-#include "control/qp/ocp_qp_rows.hpp"
+#include "control/qp/largest_entry.hpp"
+#include "control/qp/point.hpp"
+#include "control/qp/problem.hpp"
+#include "control/qp/rows.hpp"
 
 namespace control {
 
-template <int kNx, int kNu>
-bool OcpQpStage<kNx, kNu>::AddStateBound(int index, double lo, double hi, double rho, double sigma) {
-  if (row_count == kMaxRows) return false;
-  Row& row = rows[static_cast<std::size_t>(row_count++)];
-  row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = index};
-  row.C[index] = 1.0;
-  return true;
-}
+// The largest violation, in absolute terms, of each of the conditions of optimality.
+struct KktResidual {
+  double stationarity = 0.0;     // gradient of the Lagrangian with respect to x, u and, where σ = 0, ε
+  double dynamics = 0.0;         // x_0 and x_{i+1} = A x + B u + c
+  double rows = 0.0;             // lo − ε ≤ C x + D u ≤ hi + ε, and ε ≥ 0 where σ > 0
+  double multipliers = 0.0;      // λ ≥ 0, λ_ε among them
+  double complementarity = 0.0;  // λ times its row's distance to the bound
 
-template <int kNx, int kNu>
-bool OcpQpStage<kNx, kNu>::AddInputBound(int index, double lo, double hi, double rho, double sigma) {
-  if (row_count == kMaxRows) return false;
-  Row& row = rows[static_cast<std::size_t>(row_count++)];
-  row = Row{.lo = lo, .hi = hi, .rho = rho, .sigma = sigma, .unit = kNx + index};
-  row.D[index] = 1.0;
-  row.holds_input = true;
-  return true;
-}
-
-template <int kNx, int kNu>
-bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
-                                  const Eigen::Matrix<double, kNu, 1>& D, double lo, double hi, double rho,
-                                  double sigma) {
-  if (row_count == kMaxRows) return false;
-  Row& row = rows[static_cast<std::size_t>(row_count++)];
-  row = Row{.C = C, .D = D, .lo = lo, .hi = hi, .rho = rho, .sigma = sigma};
-  row.holds_input = !D.isZero(0.0);
-  int entries = 0;
-  for (int k = 0; k < kNx + kNu; ++k) {
-    const double entry = k < kNx ? C[k] : D[k - kNx];
-    if (entry != 0.0) row.unit = ++entries == 1 && entry == 1.0 ? k : Row::kGeneral;
+  [[nodiscard]] double Max() const {
+    return std::max({stationarity, dynamics, rows, multipliers, complementarity});
   }
-  return true;
-}
-
-namespace detail {
-
-// largest = max(largest, |value|), where what is not a number counts as infinite.
-inline void Raise(double& largest, double value) {
-  if (!(std::abs(value) <= largest)) largest = std::isnan(value) ? kNoBound : std::abs(value);
-}
-
-// The largest absolute value among vectors, kNoBound if one of them holds a value that is not a number.
-template <int kSize>
-class LargestEntry {
- public:
-  void Add(const Eigen::Matrix<double, kSize, 1>& value) {
-    largest_ = largest_.cwiseMax(value.cwiseAbs());
-    zero_ += 0.0 * value;
-  }
-  [[nodiscard]] double Value() const { return zero_.sum() == 0.0 ? largest_.maxCoeff() : kNoBound; }
-
- private:
-  Eigen::Matrix<double, kSize, 1> largest_ = Eigen::Matrix<double, kSize, 1>::Zero();
-  Eigen::Matrix<double, kSize, 1> zero_ = Eigen::Matrix<double, kSize, 1>::Zero();
 };
 
-}  // namespace detail
-
 template <int kNx, int kNu>
-KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
+[[nodiscard]] KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
   KktResidual residual;
   detail::LargestEntry<kNx> stationarity_x, dynamics;
   detail::LargestEntry<kNu> stationarity_u;
@@ -125,7 +83,7 @@ KktResidual EvaluateKkt(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& p
 }
 
 template <int kNx, int kNu>
-double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
+[[nodiscard]] double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
   double cost = 0.0;
   for (std::size_t i = 0; i < qp.stages.size(); ++i) {
     const auto& stage = qp.stages[i];
@@ -140,12 +98,16 @@ double EvaluateCost(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point
   return cost;
 }
 
+// True if the multipliers λ ≥ 0 of the hard rows prove that no input sequence satisfies them all (Farkas' lemma): the
+// λ-weighted sum of the rows, reduced to the inputs alone by the adjoint of the dynamics, is negative for every input
+// within its own hard bounds.
+//
 // Any feasible trajectory has 0 ≤ Σ λ_lo (C x + D u − lo) + λ_hi (hi − C x − D u) = Σ (dᵢᵀxᵢ + eᵢᵀuᵢ) +
 // constant with d = Σ_j C_j (λ_lo − λ_hi), e likewise. The adjoint π_N = d_N, π_i = d_i + Aᵀ π_{i+1} turns it
 // into constant + π_0ᵀ x_0 + Σ π_{i+1}ᵀ c_i + Σ (e_i + Bᵀ π_{i+1})ᵀ u_i, whose maximum over the inputs'
 // bounds is summed here. An input without a bound must have no part in it, but for the round-off of its terms.
 template <int kNx, int kNu>
-bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
+[[nodiscard]] bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
   constexpr double kRoundOff = 1e-9, kRoundOffOfCoefficient = 1e-12;
   double sum = 0.0;
   double magnitude = 0.0;
@@ -155,7 +117,7 @@ bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& poi
   };
   using VectorX = Eigen::Matrix<double, kNx, 1>;
   using VectorU = Eigen::Matrix<double, kNu, 1>;
-  VectorX pi = VectorX::Zero(), pi_terms = VectorX::Zero();  // and the sum of its terms' absolute values
+  VectorX pi = VectorX::Zero(), pi_terms = VectorX::Zero();  // pi_terms sums the absolute values of π's terms
   for (std::size_t i = qp.stages.size(); i-- > 0;) {
     const auto& stage = qp.stages[i];
     const bool terminal = i + 1 == qp.stages.size();
@@ -199,5 +161,9 @@ bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& poi
   add(pi.dot(qp.x0));
   return sum < -kRoundOff * magnitude;
 }
+
+extern template KktResidual EvaluateKkt(const OcpQp<8, 2>&, const OcpQpPoint<8, 2>&);
+extern template double EvaluateCost(const OcpQp<8, 2>&, const OcpQpPoint<8, 2>&);
+extern template bool ProvesInfeasible(const OcpQp<8, 2>&, const OcpQpPoint<8, 2>&);
 
 }  // namespace control

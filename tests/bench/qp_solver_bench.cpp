@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <string>
 
-#include "control/qp/ocp_qp_solver.hpp"
+#include "control/qp/solver.hpp"
 #include "tools/bench/qp_instance.hpp"
 
 namespace control {

@@ -1,10 +1,11 @@
-// What the solver does with each row of an OcpQp, whichever way the row is written.
+// Operations on the rows of an OcpQp, for general rows and for bounds of a single variable alike.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
-#include "control/qp/ocp_qp.hpp"
+#include "control/qp/problem.hpp"
 
 namespace control {
 
@@ -27,7 +28,7 @@ double RowValue(const Row& row, const VectorX& x, const VectorU& u) {
   return row.C.dot(x) + row.D.dot(u);
 }
 
-// By how much a value lies outside its bounds; negative inside.
+// The distance by which a value lies outside its bounds; negative inside.
 inline double Violation(double lo, double hi, double value) {
   return std::max(lo - value, value - hi);
 }
@@ -43,6 +44,14 @@ void AddRowGradient(const Row& row, double factor, VectorX& gradient_x, VectorU&
     gradient_x += factor * row.C;
     gradient_u += factor * row.D;
   }
+}
+
+// The slack of a row with this multiplier λ_hi − λ_lo and this violation.
+template <typename Row>
+double SlackOf(const Row& row, double lambda, double violation) {
+  if (!row.soft()) return 0.0;
+  if (row.rho > 0.0) return std::max(0.0, (std::abs(lambda) - row.sigma) / row.rho);
+  return std::abs(lambda) < row.sigma ? 0.0 : std::max(0.0, violation);
 }
 
 }  // namespace detail

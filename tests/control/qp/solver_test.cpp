@@ -1,4 +1,4 @@
-#include "control/qp/ocp_qp_solver.hpp"
+#include "control/qp/solver.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "control/qp/ocp_qp_solver_impl.hpp"
+#include "control/qp/solver.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/qp/random_qp.hpp"
 #include "tools/bench/qp_instance.hpp"
@@ -52,7 +52,7 @@ Qp ReadInstance(const std::string& name) {
 // By the active set where it may know rows, by the interior point where it may not, by either where it may know few.
 class OcpQpSolverBy : public ::testing::TestWithParam<int> {
  protected:
-  QpSettings settings_{.max_known_rows = GetParam()};
+  QpSettings settings_{.max_working_set = GetParam()};
 };
 
 INSTANTIATE_TEST_SUITE_P(, OcpQpSolverBy, ::testing::Values(0, 3, 96), [](const auto& by) {
@@ -452,7 +452,7 @@ TEST_P(OcpQpSolverBy, ContradictionBetweenUnboundedInputsIsNeverSolved) {
 
 TEST(OcpQpSolver, FirstIterationIsNotTheLastIfOnlyOneIsAllowed) {
   const Qp qp = ReadInstance("s7trN15_0041.qp");
-  Solver solver(qp.horizon(), {.max_iterations = 1, .max_known_rows = 0});
+  Solver solver(qp.horizon(), {.max_iterations = 1, .max_working_set = 0});
   const QpResult result = solver.Solve(qp);
   EXPECT_EQ(result.status, SolverStatus::kIterationLimit);
   EXPECT_EQ(result.iterations, 1);

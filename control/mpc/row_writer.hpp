@@ -1,0 +1,50 @@
+// Adds rows to a VehicleQp, each together with the constraint that it stands for.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "control/mpc/constraint.hpp"
+#include "control/mpc/vehicle_qp.hpp"
+#include "control/qp/problem.hpp"
+
+namespace control {
+
+// Weights of a row's slack ε: ½ ρ ε² + σ ε.
+struct Softness {
+  double rho = -1.0;  // negative: the row is hard
+  double sigma = 0.0;
+};
+
+class RowWriter {
+ public:
+  // `qp` must outlive it.
+  explicit RowWriter(VehicleQp& qp) : qp_(&qp), constraints_(qp.stages.size()) {}
+  RowWriter(const RowWriter&) = delete;
+  RowWriter& operator=(const RowWriter&) = delete;
+
+  // Removes all rows.
+  void Clear();
+  // lo ≤ x[index] ≤ hi, lo ≤ u[index] ≤ hi, and lo ≤ Cᵀx + Dᵀu ≤ hi, at stage constraint.step.
+  void AddStateBound(const Constraint& constraint, int index, double lo, double hi,
+                     const Softness& softness = {});
+  void AddInputBound(const Constraint& constraint, int index, double lo, double hi,
+                     const Softness& softness = {});
+  void AddRow(const Constraint& constraint, const QpState& C, const Input& D, double lo, double hi,
+              const Softness& softness = {});
+
+  // False if a stage had no room for one of the rows since Clear. The QP is then incomplete and must not be used.
+  [[nodiscard]] bool fits() const { return fits_; }
+  [[nodiscard]] const Constraint& constraint(std::size_t stage, std::size_t row) const {
+    return constraints_[stage][row];
+  }
+
+ private:
+  void Name(const Constraint& constraint, bool added);
+
+  VehicleQp* qp_;
+  std::vector<std::array<Constraint, kMaxRows>> constraints_;
+  bool fits_ = true;
+};
+
+}  // namespace control
