@@ -12,8 +12,8 @@ AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& cour
       model_(BlendedModel(vehicle), problem.t_s),
       task_(vehicle, course, problem),
       problem_(vehicle, problem),
-      // Unscaled: penalties would scale the cost down, and make the tolerance that of another unit.
-      // Where penalties are that large, a small μ at a cold start takes up to four times the iterations.
+      // No scaling: the penalties would scale the cost down and change the unit of the tolerance. With penalties this
+      // large, a small μ at a cold start takes up to four times the iterations.
       solver_({.tolerance = settings.tolerance,
                .max_iterations = settings.max_iterations,
                .scaled = false,
@@ -51,7 +51,7 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
   return plan_;
 }
 
-// Solves in rounds. One that fails leaves the plan before it.
+// Solves in rounds; a round that fails leaves the previous plan in place.
 void AffineNmpc::Solve(const Input& u_previous) {
   if (prediction_.exists()) {
     prediction_.RollOut(task_.z(), model_);
@@ -79,8 +79,8 @@ void AffineNmpc::Solve(const Input& u_previous) {
   prediction_.Shift();
 }
 
-// The prediction, with the multipliers of the last solution, of which each step takes those that the step `shift` later
-// had. A row of the body that was not there has none yet.
+// Warm start: the prediction with the multipliers of the last solution, of which each step takes those of the step
+// `shift` later. A new body row has none yet.
 NonlinearPoint AffineNmpc::Start(const AffineNmpcProblem& last, int shift) const {
   NonlinearPoint start{
       .x = problem_.PointOf(prediction_.z(), prediction_.u()), .z_lo = {}, .z_hi = {}, .lambda = {}};
@@ -103,7 +103,7 @@ NonlinearPoint AffineNmpc::Start(const AffineNmpcProblem& last, int shift) const
         const Constraint constraint = last.SoftConstraint(j, k);
         return constraint.kind == wanted.kind && constraint.index == wanted.index;
       };
-      int match = from;  // rows that are alike come in the same order
+      int match = from;  // identical rows keep their order
       while (match < last.SoftRows(j) && !is_wanted(match)) ++match;
       if (match < last.SoftRows(j)) {
         copy(point_.z_lo, last.SlackAt(j, match), start.z_lo, slack, 2);

@@ -1,13 +1,15 @@
-// The NMPC with lpv-affine's horizon, cost and constraints: what lpv-affine solves approximately by one QP is solved here
-// by Ipopt (affine_nmpc_problem.hpp, ipopt_solver.hpp), from the last solution, shifted by a step. Against its drives
-// lpv-affine's are measured. For comparison: it allocates, its time has no bound, and two threads must not solve at the
-// same time.
+// The NMPC with lpv-affine's horizon, cost and constraints: Ipopt solves what lpv-affine solves approximately by one
+// QP (affine_nmpc_problem.hpp, ipopt_solver.hpp), from the last solution, shifted by one step. Its drives are the
+// standard against which lpv-affine's are measured. It serves comparison only: it allocates, its time has no bound,
+// and two threads must not solve at the same time.
 //
-// The half-spaces of road and obstacles are, as lpv-affine's, those about a predicted trajectory: the shifted last solution
-// from the measured state on, or the reference in a first step. Where the solution is far from it, it is the next
-// prediction, and there is another round. The solution is a local one, on the sides that driving_task.hpp decides for.
+// As in lpv-affine, the half-spaces of road and obstacles are taken about a predicted trajectory: the shifted last
+// solution from the measured state on, or the reference in a first step. If the solution is far from the prediction,
+// it becomes the next prediction and another round follows. The solution is local, on the sides that tracking_problem.hpp
+// decides on.
 //
-// Status: that of ipopt_solver.hpp; kNumericalFailure, too, if a value is not finite, or if an obstacle finds no room.
+// Status: that of ipopt_solver.hpp, and kNumericalFailure if a value is not finite or there is no room for an
+// obstacle.
 #pragma once
 
 #include <vector>
@@ -30,13 +32,13 @@ struct AffineNmpcSettings {
   int max_iterations = 200;
   int rounds = 2;  // solves in one step
   double converged =
-      0.1;  // largest change of a scheduling variable, in radii of the trust region, that needs none
+      0.1;  // largest change of a scheduling variable, in radii of the trust region, without another round
 };
 
 class AffineNmpc final : public Controller {
  public:
-  // `course` must outlive it. The trust region, iterations and qp of `problem` have no meaning here. Throws
-  // std::runtime_error: Ipopt refuses its options.
+  // `course` must outlive this object. The trust region, iterations and qp of `problem` have no meaning here. Throws
+  // std::runtime_error if Ipopt refuses its options.
   AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& course, const LpvAffineSettings& problem,
              const AffineNmpcSettings& settings = {});
 
@@ -59,7 +61,7 @@ class AffineNmpc final : public Controller {
   TrackingProblem task_;
   AffineNmpcProblem problem_;
   IpoptSolver solver_;
-  NonlinearPoint point_;    // of the last solve, of problem_
+  NonlinearPoint point_;    // from the last solve of problem_
   bool has_duals_ = false;  // point_ is a solution
   Plan plan_;
   Prediction prediction_;

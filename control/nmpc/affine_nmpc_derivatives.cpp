@@ -1,4 +1,4 @@
-// The derivatives of AffineNmpcProblem's rows, and where they differ from zero.
+// The derivatives of AffineNmpcProblem's rows, and their sparsity patterns.
 #include "control/nmpc/affine_nmpc_problem.hpp"
 #include "control/vehicle/geometry.hpp"
 
@@ -8,11 +8,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-// The states that move the vehicle in its own frame, and of these those by which F is curved but for ψ.
+// The states in which F is nonlinear, and those of them that move the vehicle in its own frame, all but ψ.
 constexpr std::array kCurved{kUpsilon, kNu, kPsi, kOmega};
 constexpr std::array kDynamic{kUpsilon, kNu, kOmega};
 
-// Where ∂F/∂z differs from zero: the place moves nothing but itself, and the heading nothing but it and the place.
+// The non-zeros of ∂F/∂z: the position affects only itself, and the heading only itself and the position.
 constexpr bool Couples(int row, int column) {
   if (column <= kY) return row == column;
   return column != kPsi || row <= kY || row == kPsi;
@@ -57,8 +57,8 @@ void AffineNmpcProblem::VisitJacobian(std::span<const double> x, const Visit& vi
   }
 }
 
-// Of λᵀ F. The place adds nothing. A turn by ψ turns the motion in the map and nothing else, so its derivatives are those
-// of first order, turned. What is left comes of one-sided differences.
+// The Hessian of λᵀ F. The position adds nothing. A rotation by ψ only rotates the motion in the map, so the second
+// derivatives in ψ are those of first order, rotated. The rest comes from one-sided differences.
 AffineNmpcProblem::Curvature AffineNmpcProblem::ModelCurvature(const State& z, const Input& u,
                                                                const State& lambda) const {
   constexpr double kH = 1e-6;
@@ -93,7 +93,7 @@ AffineNmpcProblem::Curvature AffineNmpcProblem::ModelCurvature(const State& z, c
 template <typename Visit>
 void AffineNmpcProblem::VisitHessian(std::span<const double> x, double sigma, std::span<const double> lambda,
                                      const Visit& visit) const {
-  // Of z_i: cost, soft rows, and the model of the step that starts there.
+  // The entries of z_i: the cost, the soft rows and the model of the step that starts there.
   const auto visit_state = [&](int i, const Curvature& model) {
     const int z = StateAt(i);
     const State state = StateOf(x, i);
@@ -129,7 +129,7 @@ void AffineNmpcProblem::VisitHessian(std::span<const double> x, double sigma, st
     const Curvature model = -ModelCurvature(StateOf(x, i), InputOf(x, i), At<State>(lambda, RowAt(i)));
     if (i > 0) visit_state(i, model);
     const int u = InputAt(i);
-    const double changes = i + 1 < horizon() ? 2.0 : 1.0;  // in which u_i takes part
+    const double changes = i + 1 < horizon() ? 2.0 : 1.0;  // number of changes that involve u_i
     for (int j = 0; j < kInputs; ++j) {
       const double by_cost = 2.0 * sigma * (settings_.R[j] + changes * settings_.R_rate[j]);
       visit(u + j, u + j, by_cost + model(kStates + j, kStates + j));

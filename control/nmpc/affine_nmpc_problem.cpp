@@ -46,11 +46,11 @@ void AffineNmpcProblem::SetBounds() {
     bounds.lo[Index(at)] = lo;
     bounds.hi[Index(at)] = hi;
   };
-  constexpr double kBack = 0.99;  // of the rate
+  constexpr double kBack = 0.99;  // share of the rate
   for (int i = 0; i < horizon(); ++i) {
     for (int j = 0; j < kInputs; ++j) {
       const double step = settings_.rate_max[j];
-      // An input that is out of range comes back almost as fast as it may: an interior point needs an interior.
+      // An out-of-range input returns almost as fast as allowed: an interior-point method needs an interior.
       const double back = kBack * (i + 1) * step;
       bound(variable_bounds_, InputAt(i) + j, std::min(settings_.u_min[j], u_previous_[j] + back),
             std::max(settings_.u_max[j], u_previous_[j] - back));

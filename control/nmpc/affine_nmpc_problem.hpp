@@ -1,22 +1,23 @@
-// The problem of lpv_affine_mpc.hpp as a nonlinear program: the same cost and constraints, with the model, the friction and
-// the place of each point of the body as they are instead of to first order, and no trust region. No solver:
-// affine_nmpc.hpp.
+// The problem of lpv_affine_mpc.hpp as a nonlinear program: the cost and constraints are the same, but the model, the
+// friction and the position of each body point are exact instead of first-order, and there is no trust region. It is
+// solved in affine_nmpc.hpp.
 //
 //   min   |z_N − z_ref_N|²_P + Σ_{i=1..N-1} |z_i − z_ref_i|²_Q + Σ_{i<N} |u_i − u_ref_i|²_R + |u_i − u_{i−1}|²_R_rate
 //         + Σ_soft penalty (ε + ½ ε²)
 //   s.t.  for i = 0..N-1
-//         0 = z_{i+1} − F(z_i, u_i)                            6 rows   (affine_model.hpp)
-//         |u_i − u_{i−1}| ≤ rate_max, u_{−1} the input last applied   2 rows
-//   soft: 0 ≤ υ ≤ υ_max                                        1 row, at i + 1 as all below
+//         0 = z_{i+1} − F(z_i, u_i)                            6 rows   (discrete_model.hpp)
+//         |u_i − u_{i−1}| ≤ rate_max, u_{−1} the last applied input   2 rows
+//   soft: 0 ≤ υ ≤ υ_max                                        1 row, at i + 1 like all below
 //         |υω| ≤ r, |υω ± a_i| ≤ √2 r                          3 rows
-//         lo ≤ normalᵀ (p + R(ψ) fixed) ≤ hi                   a row for each of driving_task.hpp's
+//         lo ≤ normalᵀ (p + R(ψ) fixed) ≤ hi                   one for each BodyRow of tracking_problem.hpp
 //         u_min ≤ u_i ≤ u_max                                  bounds of the variables
 //
-// A soft row is lo ≤ g + ε_lo − ε_hi ≤ hi with ε_lo, ε_hi ≥ 0. At an optimum one of them is 0, as lowering both alike leaves
-// the row and lowers the cost: together they are the QP's one ε. That of a bound that is not there is fixed at 0.
+// A soft row is lo ≤ g + ε_lo − ε_hi ≤ hi with ε_lo, ε_hi ≥ 0. At an optimum one of them is 0, since lowering both
+// equally keeps the row and lowers the cost: together they are the QP's single ε. The slack of a missing bound is
+// fixed at 0.
 //
-// The variables are x = [u_0 z_1 ε_1 u_1 z_2 ε_2 … u_{N−1} z_N ε_N] with ε_lo, ε_hi of each soft row. Step i's rows come one
-// after the other in the order above.
+// The variables are x = [u_0 z_1 ε_1 u_1 z_2 ε_2 … u_{N−1} z_N ε_N] with ε_lo, ε_hi of each soft row. The rows of
+// step i are consecutive, in the order above.
 #pragma once
 
 #include <array>
@@ -36,15 +37,15 @@ class AffineNmpcProblem final : public NonlinearProgram {
  public:
   AffineNmpcProblem(const VehicleParameters& vehicle, const LpvAffineSettings& settings);
 
-  // The problem of this step with the task's rows, after its Bound.
+  // Sets the problem of this step with the task's rows, after its BuildConstraints.
   void Set(const TrackingProblem& task, const Input& u_previous);
 
   [[nodiscard]] int horizon() const { return settings_.horizon; }
-  // Places in x: of u_i (i = 0..N-1), of z_i (i = 1..N) and of ε_lo of soft row `soft` at z_i, ε_hi following it.
+  // Indices in x of u_i (i = 0..N-1), of z_i (i = 1..N) and of ε_lo of soft row `soft` at z_i; ε_hi follows ε_lo.
   [[nodiscard]] int InputAt(int i) const { return step(i).first_variable; }
   [[nodiscard]] int StateAt(int i) const { return step(i - 1).first_variable + kInputs; }
   [[nodiscard]] int SlackAt(int i, int soft) const { return StateAt(i) + kStates + 2 * soft; }
-  // Places in g: of the model and the rates of step i (i = 0..N-1), and of soft row `soft` at z_i (i = 1..N).
+  // Indices in g of the model and rate rows of step i (i = 0..N-1), and of soft row `soft` at z_i (i = 1..N).
   [[nodiscard]] int RowAt(int i) const { return step(i).first_row; }
   [[nodiscard]] int SoftRowAt(int i, int soft) const { return RowAt(i - 1) + kStates + kInputs + soft; }
   [[nodiscard]] int SoftRows(int i) const;
@@ -60,8 +61,8 @@ class AffineNmpcProblem final : public NonlinearProgram {
   void Gradient(std::span<const double> x, std::span<double> gradient) const override;
   void Rows(std::span<const double> x, std::span<double> g) const override;
   void Jacobian(std::span<const double> x, std::span<double> values) const override;
-  // That of the model by differences of the exact gradient: it only steers the solver's steps, and does not change where
-  // they lead.
+  // The model's part comes from differences of the exact gradient: it affects only the solver's steps, not the point
+  // to which they converge.
   void Hessian(std::span<const double> x, double sigma, std::span<const double> lambda,
                std::span<double> values) const override;
 
@@ -74,19 +75,19 @@ class AffineNmpcProblem final : public NonlinearProgram {
   [[nodiscard]] double Penalty(int i, int soft) const;
 
  private:
-  // Soft rows of a step that are not of the body: of the speed, then of the friction.
+  // Soft rows of a step other than those of the body: the speed, then the friction.
   static constexpr int kSpeedRow = 0;
-  static constexpr std::array kFrictionSigns{0, 1, -1};  // of a in the friction's rows
+  static constexpr std::array kFrictionSigns{0, 1, -1};  // signs of a in the friction rows
   static constexpr int kBodyRow = 1 + static_cast<int>(kFrictionSigns.size());
 
-  // Of [z; u].
+  // Second derivatives with respect to [z; u].
   using Curvature = Eigen::Matrix<double, kStates + kInputs, kStates + kInputs>;
   struct Step {
     int first_variable = 0;
     int first_row = 0;
     std::vector<BodyRow> body;  // at z_{i+1}
   };
-  // Of a soft row in z_i and a_{i−1}.
+  // Value of a soft row, and its derivatives with respect to z_i and a_{i−1}.
   struct Row {
     double value = 0.0;
     State by_z = State::Zero();
@@ -101,7 +102,7 @@ class AffineNmpcProblem final : public NonlinearProgram {
   [[nodiscard]] Curvature ModelCurvature(const State& z, const Input& u, const State& lambda) const;
   void SetBounds();
   void MakePatterns();
-  // Calls visit(row, column, value) for every place of the pattern, in the same order whatever x is.
+  // Calls visit(row, column, value) for every entry of the pattern, in the same order for every x.
   template <typename Visit>
   void VisitJacobian(std::span<const double> x, const Visit& visit) const;
   template <typename Visit>

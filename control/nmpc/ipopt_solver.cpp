@@ -13,13 +13,13 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-constexpr Number kIpoptInfinity = 2e19;  // beyond what Ipopt takes for a bound
+constexpr Number kIpoptInfinity = 2e19;  // beyond what Ipopt treats as a bound
 
 std::size_t Size(int n) {
   return static_cast<std::size_t>(n);
 }
 
-// The program as Ipopt asks for it. It starts from `point` and leaves its last iterate there.
+// The program in the form that Ipopt requires. It starts from `point` and leaves its last iterate there.
 class Nlp final : public Ipopt::TNLP {
  public:
   Nlp(const NonlinearProgram& program, NonlinearPoint& point) : program_(&program), point_(&point) {}
@@ -122,7 +122,7 @@ class IpoptSolver::Application {
     bool set = options->SetIntegerValue("print_level", 0);
     set &= options->SetStringValue("sb", "yes");
     set &= options->SetStringValue("linear_solver", "mumps");
-    // Ten times the memory that is needed, as by default, takes time to get.
+    // The default, ten times the memory that is needed, takes time to allocate.
     set &= options->SetIntegerValue("mumps_mem_percent", 100);
     set &= options->SetNumericValue("tol", settings.tolerance);
     set &= options->SetIntegerValue("acceptable_iter", 0);  // solved to the tolerance or not solved
@@ -131,7 +131,7 @@ class IpoptSolver::Application {
     set &= options->SetStringValue("nlp_scaling_method", settings.scaled ? "gradient-based" : "none");
     set &= options->SetNumericValue("warm_start_bound_push", 1e-6);
     set &= options->SetNumericValue("warm_start_mult_bound_push", 1e-6);
-    // "": an ipopt.opt that happens to lie in the working directory has no say.
+    // "": an ipopt.opt that happens to be in the working directory is ignored.
     if (!set || ipopt_->Initialize("") != Ipopt::Solve_Succeeded) {
       throw std::runtime_error("Ipopt refuses its options: is it built with MUMPS?");
     }

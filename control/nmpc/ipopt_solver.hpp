@@ -1,8 +1,8 @@
-// Solves a nonlinear program by Ipopt (Wächter, Biegler 2006) with MUMPS. It allocates, and two threads must not solve at
-// the same time, since MUMPS is not made for that.
+// Solves a nonlinear program by Ipopt (Wächter, Biegler 2006) with MUMPS. It allocates, and two threads must not
+// solve at the same time, since MUMPS is not thread-safe.
 //
-// Status: kSolved to the tolerance; kInfeasible: Ipopt ended in a point where the violation of the constraints is
-// smallest near by, which is no proof; kIterationLimit: the limit of iterations or time; kNumericalFailure: all else.
+// Status: kSolved: the tolerance is reached; kInfeasible: Ipopt ended at a local minimum of the constraint violation,
+// which is no proof; kIterationLimit: the limit of iterations or time is reached; kNumericalFailure: anything else.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,10 @@ struct IpoptSettings {
   double max_cpu_time = 1e6;  // of one solve [s]
   bool scaled = true;  // the program is scaled by its gradients at the start, and the tolerance with it
   double warm_barrier = 1e-4;  // barrier parameter μ at a warm start
-  double cold_barrier = 1e-1;  // and at any other
+  double cold_barrier = 1e-1;  // barrier parameter μ at a cold start
 };
 
-// Primal and dual variables: of the bounds of x, and of the rows.
+// Primal variables x, and dual variables of the bounds of x (z_lo, z_hi) and of the rows (lambda).
 struct NonlinearPoint {
   std::vector<double> x, z_lo, z_hi, lambda;
 };
@@ -34,13 +34,13 @@ class IpoptSolver {
     int iterations = 0;
   };
 
-  // Throws std::runtime_error: Ipopt refuses its options.
+  // Throws std::runtime_error if Ipopt refuses its options.
   explicit IpoptSolver(const IpoptSettings& settings);
   ~IpoptSolver();
   IpoptSolver(const IpoptSolver&) = delete;
   IpoptSolver& operator=(const IpoptSolver&) = delete;
 
-  // From `point`, of which without `warm` x alone counts, to the last iterate, which is left there.
+  // Solves from `point` and leaves the last iterate there. Without `warm`, only the x of `point` is used.
   Result Solve(const NonlinearProgram& program, NonlinearPoint& point, bool warm);
 
  private:

@@ -72,7 +72,8 @@ void Nmpc::MoveOutOfObstacles(const TrackingInput& input) {
   }
 }
 
-// Each step takes what the next one had. The last one keeps its own inputs and multipliers, and goes on by the model.
+// Each step takes the values of the next one. The last keeps its inputs and multipliers, and its state follows the
+// model.
 void Nmpc::Shift() {
   const State z_N = problem_.StateOf(point_.x, horizon());
   const Input u_N = problem_.InputOf(point_.x, horizon() - 1);

@@ -1,9 +1,9 @@
-// The paper's NMPC (eq:nonlinear_MPC): the nonlinear program of nmpc_problem.hpp, solved by Ipopt (ipopt_solver.hpp) from
-// the last solution, shifted by a step. For comparison: it allocates, its time has no bound but a coarse one, and two
-// threads must not solve at the same time.
+// The paper's NMPC (eq:nonlinear_MPC): the nonlinear program of nmpc_problem.hpp, solved by Ipopt (ipopt_solver.hpp)
+// from the last solution, shifted by one step. It serves comparison only: it allocates, its time has only a coarse
+// bound, and two threads must not solve at the same time.
 //
-// Its solution is a local one. On which side an obstacle is passed (assum_1) is decided by the start: points of it that
-// lie inside are first moved out on that side.
+// Its solution is local. The start decides on which side an obstacle is passed (assum_1): points of it that lie
+// inside the obstacle are first moved out on that side.
 //
 // Status: that of ipopt_solver.hpp.
 #pragma once
@@ -21,14 +21,14 @@
 namespace control {
 
 struct NmpcSettings : MpcSettings {
-  double tolerance = 1e-4;  // of Ipopt (paper, Section Results); leaves up to 5e-3 in the input
+  double tolerance = 1e-4;  // of Ipopt (paper, Section Results); leaves an error of up to 5e-3 in the input
   int max_iterations = 100;
   double max_cpu_time = 0.25;  // of one step [s]
 };
 
 class Nmpc final : public TrackingController {
  public:
-  // Throws std::runtime_error: Ipopt refuses its options.
+  // Throws std::runtime_error if Ipopt refuses its options.
   Nmpc(const VehicleParameters& vehicle, const NmpcSettings& settings);
 
   [[nodiscard]] int horizon() const override { return settings_.horizon; }

@@ -20,7 +20,7 @@ struct Place {
   int row;
   int column;
 };
-// Where z + t_s f(z, u) has derivatives.
+// The non-zero first derivatives of z + t_s f(z, u).
 constexpr std::array kByState{Place{kX, kX},        Place{kX, kUpsilon},     Place{kX, kNu},
                               Place{kX, kPsi},      Place{kY, kY},           Place{kY, kNu},
                               Place{kY, kUpsilon},  Place{kY, kPsi},         Place{kUpsilon, kUpsilon},
@@ -29,7 +29,7 @@ constexpr std::array kByState{Place{kX, kX},        Place{kX, kUpsilon},     Pla
                               Place{kPsi, kOmega},  Place{kOmega, kUpsilon}, Place{kOmega, kNu},
                               Place{kOmega, kOmega}};
 constexpr std::array kByInput{Place{kUpsilon, kAcceleration}, Place{kNu, kDelta}, Place{kOmega, kDelta}};
-// Pairs of different states in which it is curved, and the states in which it is together with δ.
+// Its non-zero mixed second derivatives: pairs of different states, and states paired with δ.
 constexpr std::array kCurvedStates{Place{kNu, kUpsilon}, Place{kPsi, kUpsilon}, Place{kPsi, kNu},
                                    Place{kOmega, kUpsilon}, Place{kOmega, kNu}};
 constexpr std::array kCurvedWithDelta{kUpsilon, kNu, kOmega};
@@ -47,7 +47,7 @@ Input NmpcProblem::InputOf(std::span<const double> x, int i) const {
   return At<Input>(x, InputAt(i));
 }
 
-// Left of the road at step i.
+// The road's left normal at step i.
 Eigen::Vector2d NmpcProblem::Normal(int i) const {
   const double psi = reference_[Index(i)][kPsi];
   return {-std::sin(psi), std::cos(psi)};
@@ -161,7 +161,7 @@ template <typename Visit>
 void NmpcProblem::VisitHessian(std::span<const double> x, double sigma, std::span<const double> lambda,
                                const Visit& visit) const {
   using Curvature = SingleTrackModel::Curvature;
-  // Of z_i: cost, obstacles, and the model of the step that starts there.
+  // The entries of z_i: the cost, the obstacles and the model of the step that starts there.
   const auto visit_state = [&](int i, const Curvature& model) {
     const int z = StateAt(i);
     Eigen::Matrix2d obstacles = Eigen::Matrix2d::Zero();

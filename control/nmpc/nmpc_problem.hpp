@@ -1,16 +1,16 @@
-// The nonlinear program of the paper's NMPC (eq:nonlinear_MPC), with exact sparse derivatives. No solver: nmpc.hpp.
+// The nonlinear program of the paper's NMPC (eq:nonlinear_MPC), with exact sparse derivatives, solved in nmpc.hpp.
 //
 //   min   |z_N − z_ref_N|²_P + Σ_{i=1..N-1} |z_i − z_ref_i|²_Q + Σ_{i<N} |u_i|²_R
 //   s.t.  for i = 0..N-1
 //         0 = z_{i+1} − z_i − t_s f(z_i, u_i)                        6 rows   (eq:NMPC_model)
-//         |u_i − u_{i−1}| ≤ rate_max, u_{−1} the input last applied  2 rows
+//         |u_i − u_{i−1}| ≤ rate_max, u_{−1} the last applied input  2 rows
 //         right ≤ n_{i+1}ᵀ (X, Y)_{i+1} ≤ left                       1 row    (eq:NMPC_road_cons)
-//         ((X, Y)_{i+1} in axes of the obstacle, as share of its semi-axes)² ≥ 1   a row each   (eq:NMPC_obs_cons)
+//         ((X, Y)_{i+1} in the obstacle's axes, divided by its semi-axes)² ≥ 1     1 row each   (eq:NMPC_obs_cons)
 //         u_min ≤ u_i ≤ u_max, z_min ≤ z_{i+1} ≤ z_max               bounds of the variables
 //
-// n is the road's left normal at the reference; the road is measured from there. Obstacles are enlarged by the
-// margin. The variables are x = [u_0 z_1 u_1 z_2 … u_{N−1} z_N], z_0 being given; 8 a step. Step i's rows come one
-// after the other in the order above.
+// n is the road's left normal at the reference, from which the road's edges are measured. Obstacles are enlarged by
+// the margin. The variables are x = [u_0 z_1 u_1 z_2 … u_{N−1} z_N], 8 per step; z_0 is given. The rows of step i are
+// consecutive, in the order above.
 #pragma once
 
 #include <span>
@@ -28,14 +28,14 @@ class NmpcProblem final : public NonlinearProgram {
  public:
   NmpcProblem(const VehicleParameters& vehicle, const MpcSettings& settings);
 
-  // The problem of this step. Its size changes with the number of obstacles alone.
+  // Sets the problem of this step. Its size depends only on the number of obstacles.
   void Set(const TrackingInput& input);
 
   static constexpr int kStepVariables = kInputs + kStates;
   [[nodiscard]] int horizon() const { return settings_.horizon; }
   [[nodiscard]] int variables() const override { return settings_.horizon * kStepVariables; }
   [[nodiscard]] int rows() const override { return settings_.horizon * StepRows(); }
-  // Places of the variables in x: of u_i (i = 0..N-1) and z_i (i = 1..N).
+  // Indices in x of u_i (i = 0..N-1) and z_i (i = 1..N).
   [[nodiscard]] static constexpr int InputAt(int i) { return i * kStepVariables; }
   [[nodiscard]] static constexpr int StateAt(int i) { return (i - 1) * kStepVariables + kInputs; }
 
@@ -53,7 +53,7 @@ class NmpcProblem final : public NonlinearProgram {
   [[nodiscard]] State StateOf(std::span<const double> x, int i) const;  // i = 0..N
   [[nodiscard]] Input InputOf(std::span<const double> x, int i) const;  // i = 0..N-1
 
-  // z_{i+1} after z_i and u_i: forward Euler.
+  // z_{i+1} from z_i and u_i by forward Euler.
   [[nodiscard]] State Next(const State& z, const Input& u) const;
   // The inputs of x with the states that they lead to.
   [[nodiscard]] std::vector<double> Driven(std::span<const double> x) const;
@@ -73,7 +73,7 @@ class NmpcProblem final : public NonlinearProgram {
   [[nodiscard]] const State& Weights(int i) const { return i < horizon() ? settings_.Q : settings_.P; }
   [[nodiscard]] Eigen::Vector2d Normal(int i) const;
   void MakePatterns();
-  // Calls visit(row, column, value) for every place of the pattern, in the same order whatever x is.
+  // Calls visit(row, column, value) for every entry of the pattern, in the same order for every x.
   template <typename Visit>
   void VisitJacobian(std::span<const double> x, const Visit& visit) const;
   template <typename Visit>

@@ -1,4 +1,4 @@
-// A nonlinear program with sparse derivatives, as a solver asks for it (ipopt_solver.hpp):
+// A nonlinear program with sparse derivatives, in the form that a solver requires (ipopt_solver.hpp):
 //
 //   min f(x)   s.t.  lo ≤ g(x) ≤ hi,  lo ≤ x ≤ hi
 #pragma once
@@ -13,7 +13,7 @@ namespace control {
 class NonlinearProgram {
  public:
   struct Bounds {
-    std::vector<double> lo, hi;  // ±∞ where there is none
+    std::vector<double> lo, hi;  // ±∞ where there is no bound
   };
   struct Entry {
     int row;
@@ -26,17 +26,17 @@ class NonlinearProgram {
   [[nodiscard]] virtual int rows() const = 0;
   [[nodiscard]] virtual const Bounds& variable_bounds() const = 0;
   [[nodiscard]] virtual const Bounds& row_bounds() const = 0;
-  // Places that may differ from zero, each once; of the Hessian those of the lower triangle. Values come in their
+  // Entries that may be non-zero, each once; for the Hessian, those of the lower triangle. Values come in the same
   // order.
   [[nodiscard]] virtual const std::vector<Entry>& jacobian_pattern() const = 0;
   [[nodiscard]] virtual const std::vector<Entry>& hessian_pattern() const = 0;
 
-  // x, gradient: variables(); g, λ: rows(); values: one for each place of the pattern.
+  // Sizes: x and gradient variables(), g and λ rows(), values one for each entry of the pattern.
   [[nodiscard]] virtual double Cost(std::span<const double> x) const = 0;
   virtual void Gradient(std::span<const double> x, std::span<double> gradient) const = 0;
   virtual void Rows(std::span<const double> x, std::span<double> g) const = 0;
   virtual void Jacobian(std::span<const double> x, std::span<double> values) const = 0;
-  // Of σ f + λᵀ g.
+  // The Hessian of σ f + λᵀ g.
   virtual void Hessian(std::span<const double> x, double sigma, std::span<const double> lambda,
                        std::span<double> values) const = 0;
 };

@@ -24,7 +24,7 @@ std::optional<HalfSpace> ObstacleHalfSpace(const Obstacle& obstacle, const State
       obstacle.side == PassingSide::kLeft || (obstacle.side == PassingSide::kUnknown && left <= -right);
   const Vector2d q = s + (pass_left ? left : right) * d;
 
-  // The gradient of the ellipse's equation at Q (eq:tangent_param), turned back into the map.
+  // The gradient of the ellipse's equation at Q (eq:tangent_param), rotated back into the map.
   const Vector2d normal = (to_axes.inverse() * q.cwiseQuotient(axes)).normalized();
   const Vector2d on_ellipse = Vector2d(obstacle.X, obstacle.Y) + to_axes.inverse() * q.cwiseProduct(axes);
   return HalfSpace{.a = normal.x(), .b = normal.y(), .c = normal.dot(on_ellipse)};

@@ -1,7 +1,6 @@
 // Obstacle avoidance as one half-space a X + b Y ≥ c per step (paper, Section linobs, Algorithm 1): where the
-// reference point lies inside the obstacle's ellipse, it is projected along the road's normal onto the
-// circumference, on the side on which the obstacle is passed, and the vehicle is kept beyond the tangent
-// there.
+// reference point lies inside the obstacle's ellipse, it is projected along the road's normal onto the circumference,
+// on the side on which the obstacle is passed, and the vehicle is kept beyond the tangent at that point.
 #pragma once
 
 #include <optional>
@@ -17,9 +16,8 @@ struct HalfSpace {
   double c = 0.0;
 };
 
-// The half-space for reference state `z_ref`, nothing if its point lies outside the obstacle, whose semi-axes
-// are first enlarged by `margin` [m]. An unknown side is the one with the shorter way out along the road's
-// normal.
+// The half-space for the reference state `z_ref`, or nullopt if its point lies outside the obstacle, whose semi-axes
+// are first enlarged by `margin` [m]. An unknown side is resolved to the shorter way out along the road's normal.
 [[nodiscard]] std::optional<HalfSpace> ObstacleHalfSpace(const Obstacle& obstacle, const State& z_ref,
                                                          double margin);
 

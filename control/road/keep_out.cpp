@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSmallest = 1e-3;  // semi-axis: a point has no direction to pass it in [m]
+constexpr double kSmallest = 1e-3;  // smallest semi-axis [m]: a point has no tangent
 
 // Points p with (p − centre)ᵀ S⁻¹ (p − centre) ≤ 1; the support in direction d is √(dᵀ S d).
 Eigen::Matrix2d ShapeOf(const Obstacle& obstacle, double margin) {
@@ -42,8 +42,9 @@ std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide 
   const Vector2d t = Along(psi_road);
   const double sign = side == PassingSide::kLeft ? 1.0 : -1.0;
   const Vector2d n = sign * LeftOf(psi_road);
-  // Road axes: t, and n to the side on which it is passed. The vehicle covers from `rear` to `front` along t, from the
-  // centre of the obstacle. Of the edge over it that point counts which is nearest to the widest one.
+  // Road axes: t along the road, n towards the passing side. From the obstacle's centre, the vehicle covers `rear` to
+  // `front` along t. The tangent touches the ellipse's edge over that interval, as near as possible to its widest
+  // point.
   const Eigen::Matrix2d S = ShapeOf(obstacle, margin);
   const double S_tt = t.dot(S * t), S_tn = t.dot(S * n), S_nn = n.dot(S * n);
   const double place = t.dot(Vector2d(z[kX] - obstacle.X, z[kY] - obstacle.Y));

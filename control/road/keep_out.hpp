@@ -1,10 +1,10 @@
-// Half-spaces that keep a vehicle with a footprint out of obstacles (paper, Section linobs, for a vehicle that is no
-// point): the tangent of the obstacle's ellipse on the side on which it is passed, about the predicted pose. That the
-// vehicle's rectangle lies beyond it is a row for each of its corners; the two nearest are enough, since the others
-// follow while the heading changes little.
+// Half-spaces that keep a vehicle with a footprint out of obstacles (paper, Section linobs, for a vehicle that is not
+// a point): the tangent of the obstacle's ellipse on the passing side, about the predicted pose. Keeping the
+// vehicle's rectangle beyond it takes one row per corner; the two nearest corners are enough, since the others follow
+// while the heading changes little.
 //
-// Where the vehicle is beside the obstacle, the tangent is the one parallel to the road; before and behind, it turns
-// with the ellipse, by at most 45°, so that a row never becomes a wall across the road.
+// Beside the obstacle, the tangent is parallel to the road; before and behind the obstacle, it turns with the
+// ellipse, by at most 45°, so that a row never becomes a wall across the road.
 #pragma once
 
 #include <optional>
@@ -22,13 +22,13 @@ namespace control {
 [[nodiscard]] double SupportOf(const Obstacle& obstacle, const Eigen::Vector2d& direction);
 
 // The half-space that lets the vehicle at `z` pass on the given side (not kUnknown) of the obstacle, enlarged by
-// `margin` [m], on a road of heading `psi_road`. Nothing if the vehicle is further than `reach` [m] before or behind it.
+// `margin` [m], on a road of heading `psi_road`; nullopt if the vehicle is more than `reach` [m] before or behind it.
 [[nodiscard]] std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide side,
                                                         const State& z, double psi_road,
                                                         const Footprint& footprint, double margin,
                                                         double reach);
 
-// The half-space before the obstacle, across a road of heading `psi_road`: for who cannot pass.
+// The half-space before the obstacle, across a road of heading `psi_road`, for a vehicle that cannot pass.
 [[nodiscard]] HalfSpace HalfSpaceBefore(const Obstacle& obstacle, double psi_road, double margin);
 
 }  // namespace control

@@ -1,5 +1,5 @@
-// Follows a vehicle along a time reference: from measured states, or without one by dead reckoning from the commands, with
-// the steady-state cornering of the single-track model (steady_cornering.hpp).
+// Tracks a vehicle along a time reference: from measured states or, without one, by dead reckoning from the commands
+// with the steady-state cornering of the single-track model (steady_cornering.hpp).
 #pragma once
 
 #include "control/road/time_reference.hpp"
@@ -8,26 +8,26 @@
 
 namespace control {
 
-// Below this speed the sideslip angle is taken for zero, and the wheels are held [m/s].
+// Below this speed the sideslip angle is taken as zero and the wheels are held [m/s].
 inline constexpr double kMinSteeringSpeed = 0.5;
 
 struct RouteMotion {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();  // in the map [m]
   double psi = 0.0;                             // [rad]
-  double travel_direction = 0.0;                // of the velocity: ψ and the sideslip angle [rad]
+  double travel_direction = 0.0;                // of the velocity: ψ plus the sideslip angle [rad]
   double speed = 0.0;                           // ≥ 0 [m/s]
   int nearest = 0;                              // sample of the reference beside the vehicle
 };
 
 class Odometer {
  public:
-  // `reference` must outlive it. `t_s`: of a cycle [s].
+  // `reference` must outlive this object. `t_s` is the cycle time [s].
   Odometer(const VehicleParameters& vehicle, double t_s, const TimeReference& reference)
       : vehicle_(vehicle), t_s_(t_s), reference_(&reference) {}
 
-  // The vehicle is at `z`, beside sample k of the reference.
+  // Starts at `z`, beside sample k of the reference.
   void Start(const State& z, int k);
-  // One cycle later: at `measured`, or, if that is null, where `applied` has led the vehicle.
+  // Advances by one cycle: to `measured` or, if that is null, to where `applied` has taken the vehicle.
   void Advance(const State* measured, const Input& applied);
 
   [[nodiscard]] const RouteMotion& motion() const { return motion_; }
@@ -39,7 +39,7 @@ class Odometer {
   RouteMotion motion_;
 };
 
-// The sample that is reached from sample `from` without passing a further one, forwards only and at most 2000 samples on.
+// The first local minimum of the distance to `p`, searched forwards from sample `from` over at most 2000 samples.
 [[nodiscard]] int NearestAhead(const TimeReference& reference, const Eigen::Vector2d& p, int from);
 
 }  // namespace control

@@ -10,15 +10,15 @@
 namespace control {
 namespace {
 
-// What a gap costs, in metres that the vehicle must move sideways.
-constexpr double kBeyondGrip = 20.0;  // per multiple of the grip
-constexpr double kLacking = 50.0;     // per metre that it is too narrow
-constexpr double kChange = 2.0;    // per obstacle that would be passed on the other side than decided before
-constexpr double kTooMuch = 15.0;  // rather stop
+// Costs of a gap, in metres of lateral movement.
+constexpr double kBeyondGrip = 20.0;  // per multiple of the grip beyond it
+constexpr double kLacking = 50.0;     // per metre by which the gap is too narrow
+constexpr double kChange = 2.0;       // per obstacle whose passing side changes
+constexpr double kTooMuch = 15.0;     // above this cost, the vehicle stops instead
 
 constexpr double kStoppedWithin = 0.1;  // [m]
-// By so much a gap may be too narrow if it was wide enough when it was chosen, and so much wider it has to be if the vehicle
-// stops for it already [m].
+// Hysteresis of the gap width [m]: a gap that was wide enough when it was chosen may be too narrow by up to kKept; a
+// gap for which the vehicle is already stopping must be wider than necessary by at least kReopened.
 constexpr double kKept = 0.15;
 constexpr double kReopened = 0.1;
 
@@ -35,7 +35,7 @@ bool PassingPlanner::Allowed(const Obstacle& obstacle, Passage passage) const {
 
 PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles, std::size_t index, double s,
                                              double upsilon, PassingDecision& decision) const {
-  constexpr double kSlowest = 3.0;  // [m/s] by which the time until a meeting is reckoned
+  constexpr double kSlowest = 3.0;  // lowest speed assumed for the time until a meeting [m/s]
   const Obstacle& obstacle = obstacles[index];
   const RouteProjection place = course_->Project({obstacle.X, obstacle.Y}, s);
   const double psi = course_->At(place.s).psi;
@@ -53,7 +53,7 @@ PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles
     return closing > 0.0 ? gap / closing : std::numeric_limits<double>::infinity();
   };
   const bool passed = place.s + decision.half_length < behind && decision.speed <= upsilon;
-  // Who follows it at its own speed would never meet it, and catch up with it were it ignored.
+  // A vehicle that follows the obstacle at its speed never meets it, but would catch up if the obstacle were ignored.
   const double wanted = std::max(upsilon, course_->At(s).speed);
   if (passed || !(time_at(wanted) <= settings_.look_ahead)) return {.index = index, .time = -1.0};
   const double time = std::min(time_at(upsilon), settings_.look_ahead);
@@ -81,7 +81,7 @@ std::span<const PassingDecision> PassingPlanner::Decide(std::span<const Obstacle
   std::sort(meetings_.begin(), end,
             [](const Meeting& a, const Meeting& b) { return a.s - a.half_length < b.s - b.half_length; });
 
-  // Obstacles between which the vehicle does not fit along the road are met together.
+  // Obstacles that leave no room for the vehicle between them along the road are met together.
   const double length = settings_.footprint.front + settings_.footprint.rear + 2.0 * settings_.margin;
   double from = lateral;
   double time = 0.0;
@@ -108,7 +108,7 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
   const double keep = half_width + settings_.margin;
   const double right_edge = course_->road().right + half_width + settings_.road_margin;
   const double left_edge = course_->road().left - half_width - settings_.road_margin;
-  // 90 % of the grip stop it within the distance that is left; at a walking pace, anywhere.
+  // The vehicle can stop within the remaining distance at 90 % of the grip; at a walking pace, it can stop anywhere.
   const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, kStoppedWithin);
   const double margins = settings_.margin + std::min(settings_.margin, settings_.road_margin);
   // Gap g lies left of the first g obstacles and right of the others.
@@ -134,7 +134,7 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
       stopped = stopped || kept == Passage::kStop;
       if ((kept == Passage::kLeft || kept == Passage::kRight) && kept != passage) ++changes;
     }
-    // Who cannot stop any more goes through what the margins leave.
+    // A vehicle that can no longer stop may use up the margins.
     const double spare = can_stop ? (kept_all ? kKept : (stopped ? -kReopened : 0.0)) : margins;
     if (!allowed || lo - hi > spare) continue;
     const double lacking = std::max(lo - hi, 0.0);
@@ -151,8 +151,8 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
       best = g;
     }
   }
-  // What needs more than the tyres give is stopped for, if that is still possible; where nothing is left, the brake is what
-  // remains.
+  // If a gap needs more than the tyres can give, the vehicle stops, provided that it still can; if there is no gap,
+  // it brakes in any case.
   const bool none = !(best_cost < std::numeric_limits<double>::infinity());
   const bool stop = none || (best_cost > kTooMuch && can_stop);
   for (std::size_t k = 0; k < group.size(); ++k) {

@@ -1,8 +1,8 @@
-// On which side each obstacle is passed (paper, assum_1), decided where nobody says it: obstacles that are met at the
-// same place leave gaps between one another and the road's edges, and the vehicle takes the one that is wide enough and
-// asks the least of it. Where there is none it stops before the obstacle.
+// Decides on which side each obstacle is passed (paper, assum_1) where the side is not given: obstacles that are met
+// at the same place leave gaps between one another and the road's edges, and the vehicle takes the gap that is wide
+// enough and demands the least. If there is none, it stops before the obstacle.
 //
-// A decision is kept while it can be, so that noise does not turn the wheel.
+// A decision is kept as long as possible (hysteresis), so that noise does not turn the wheel.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@ struct PassingSettings {
   Footprint footprint;
   double margin = 0.3;       // to obstacles [m]
   double road_margin = 0.1;  // to the road's edges [m]
-  double grip = 5.0;         // acceleration that can be asked of the tyres [m/s²]
-  double look_ahead = 8.0;   // obstacles met later do not matter yet [s]
+  double grip = 5.0;         // acceleration that the tyres can provide [m/s²]
+  double look_ahead = 8.0;   // obstacles met later are ignored for now [s]
 };
 
 enum class Passage { kIgnored, kLeft, kRight, kStop };
 
-// What is decided about an obstacle, and where on the course it is when the vehicle meets it.
+// The decision about an obstacle, and the obstacle's position and motion along the road.
 struct PassingDecision {
   Passage passage = Passage::kIgnored;
-  double s = 0.0;            // of its centre now, on the course [m]
-  double speed = 0.0;        // along the course [m/s]
-  double half_length = 0.0;  // along the course [m]
+  double s = 0.0;            // current arc length of its centre [m]
+  double speed = 0.0;        // along the road [m/s]
+  double half_length = 0.0;  // along the road [m]
 };
 
 class PassingPlanner {
@@ -39,27 +39,27 @@ class PassingPlanner {
   PassingPlanner(const PassingSettings& settings, const RoadProfile& course)
       : settings_(settings), course_(&course) {}
 
-  // A decision for each obstacle, in their order; they belong to the planner until the next call. The vehicle is at `s` on
-  // the course, `lateral` left of it, and drives at `upsilon`.
-  // Obstacles beyond the first kMostObstacles get none.
+  // Returns one decision per obstacle, in the same order; the span is valid until the next call. The vehicle is at
+  // arc length `s`, `lateral` left of the road profile, and drives at `upsilon`.
+  // Obstacles beyond the first kMostObstacles get no decision.
   [[nodiscard]] std::span<const PassingDecision> Decide(std::span<const Obstacle> obstacles, double s,
                                                         double lateral, double upsilon);
   void Reset() { kept_ = {}; }
 
  private:
-  // An obstacle in road coordinates at the time at which it is met.
+  // An obstacle in road coordinates at the time at which the vehicle meets it.
   struct Meeting {
     std::size_t index = 0;
-    double s = 0.0;        // of its centre, then
-    double time = 0.0;     // until the vehicle's front is there
-    double lateral = 0.0;  // of its centre, then
+    double s = 0.0;        // arc length of its centre at that time
+    double time = 0.0;     // until the vehicle's front reaches it
+    double lateral = 0.0;  // lateral position of its centre at that time
     double half_length = 0.0;
     double half_width = 0.0;
   };
 
   [[nodiscard]] Meeting Meet(std::span<const Obstacle> obstacles, std::size_t index, double s, double upsilon,
                              PassingDecision& decision) const;
-  // Decides the group of obstacles met at one place; returns the lateral place of the gap taken.
+  // Decides the group of obstacles met at one place; returns the lateral position of the gap taken.
   double DecideGroup(std::span<const Obstacle> obstacles, std::span<Meeting> group, double from, double time,
                      double distance, double upsilon);
   [[nodiscard]] bool Allowed(const Obstacle& obstacle, Passage passage) const;
@@ -67,7 +67,7 @@ class PassingPlanner {
 
   PassingSettings settings_;
   const RoadProfile* course_;
-  std::array<Passage, kMostObstacles> kept_{};  // by id, modulo
+  std::array<Passage, kMostObstacles> kept_{};  // indexed by id modulo the size
   std::array<Meeting, kMostObstacles> meetings_{};
   std::array<PassingDecision, kMostObstacles> decisions_{};
 };

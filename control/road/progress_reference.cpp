@@ -8,12 +8,12 @@
 namespace control {
 namespace {
 
-// By so much the speed may differ from the profile before the reference comes towards it: noise of the measured speed
-// must not become an acceleration [m/s].
+// Difference from the profile up to which the reference ignores the measured speed, so that noise does not become an
+// acceleration [m/s].
 constexpr double kSpeedTolerance = 0.5;
-// Of the comfortable deceleration: brakes that catch up with a profile.
+// Multiple of the comfortable deceleration at which the vehicle brakes to catch up with a profile.
 constexpr double kHarder = 1.5;
-// Slower than a line that moves, per metre beyond it [1/s].
+// Speed reduction below that of a moving stop line, per metre beyond it [1/s].
 constexpr double kFallBack = 0.5;
 
 }  // namespace
@@ -29,7 +29,8 @@ double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> 
   return speed;
 }
 
-// Brakes that catch up with a profile are a little harder than comfortable; before a line that is near, as hard as it takes.
+// The vehicle brakes a little harder than comfortable to catch up with a profile, and as hard as necessary before a
+// near stop line.
 double ProgressReference::Deceleration(double s, double upsilon, std::span<const StopLine> stops) const {
   const SpeedLimits& limits = course_->limits();
   double hardest = kHarder * limits.deceleration;

@@ -1,8 +1,8 @@
-// The reference by progress: from the point of the course beside the vehicle on, as fast as the course's profile, what
-// may stand in the way, and a comfortable acceleration allow. A vehicle that is late or early is not dragged.
+// The progress-based reference: it starts at the point of the road profile beside the vehicle and is as fast as the
+// profile, the stop lines and a comfortable acceleration allow. A vehicle that is late or early is not dragged.
 //
-// Each state is that of steady cornering on the course (steady_cornering.hpp), so that on a bend no error remains that is
-// none: ω = κ υ, ψ = ψ_course − ν/υ.
+// Each state is that of steady cornering on the road profile (steady_cornering.hpp), so that a bend causes no
+// spurious error: ω = κ υ, ψ = ψ_course − ν/υ.
 #pragma once
 
 #include <span>
@@ -13,9 +13,9 @@
 
 namespace control {
 
-// A place that must not be passed, moving along the course.
+// A line across the road that must not be passed; it may move along the road.
 struct StopLine {
-  double s = 0.0;      // now [m]
+  double s = 0.0;      // current arc length [m]
   double speed = 0.0;  // ≥ 0 [m/s]
 };
 
@@ -24,8 +24,8 @@ class ProgressReference {
   ProgressReference(const VehicleParameters& vehicle, const RoadProfile& course, double t_s)
       : vehicle_(vehicle), course_(&course), t_s_(t_s) {}
 
-  // `z`: N + 1 states, `u`: N inputs, `s`: the N + 1 places on the course [m]. From the place s_0 and at about the speed
-  // `upsilon` [m/s].
+  // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
+  // at the arc length s_0 and at about the speed `upsilon` [m/s].
   void Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
             std::span<Input> u, std::span<double> s) const;
 

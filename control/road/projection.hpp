@@ -8,8 +8,8 @@
 
 namespace control {
 
-// The sample that is reached from `from` without passing a further one, first forwards, then backwards, among
-// first..last. `distance(k)` of sample k, in any measure that grows with it.
+// The local minimum of `distance` searched from sample `from`, first forwards, then backwards, within first..last.
+// `distance(k)` is any measure that increases with the distance to sample k.
 template <typename Distance>
 [[nodiscard]] int NearestSample(const Distance& distance, int from, int first, int last) {
   int k = from;
@@ -18,7 +18,7 @@ template <typename Distance>
   return k;
 }
 
-// A position seen from a point of a path [m].
+// A position relative to a point of a path [m].
 struct PathOffset {
   double ahead = 0.0;
   double left = 0.0;

@@ -77,7 +77,7 @@ RouteProjection RoadProfile::Project(const Eigen::Vector2d& position, double hin
   const int k = NearestSample(distance, from, 0, last);
   const RoutePoint& point = at(k);
   const auto [ahead, left] = OffsetFrom(Position(point), point.psi, position);
-  // On a curve, ahead of the sample, the course advances by less or more than the position does.
+  // On a curve, the arc length from the sample to the projection differs from the distance ahead along the tangent.
   const bool inside = k > 0 && k < last;
   const double stretch = inside ? std::max(1.0 - point.curvature * left, 0.1) : 1.0;
   const double s = static_cast<double>(k) * spacing_ + ahead / stretch;

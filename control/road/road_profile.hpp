@@ -16,13 +16,13 @@ struct SpeedLimits {
   double lateral = 3.0;       // in curves [m/s²], > 0
   double acceleration = 1.5;  // [m/s²], > 0
   double deceleration = 2.0;  // [m/s²], > 0
-  double emergency = 5.0;     // deceleration before what cannot be passed [m/s²], > 0
+  double emergency = 5.0;     // deceleration before an obstacle that cannot be passed [m/s²], > 0
 };
 
 class RoadProfile {
  public:
-  static constexpr double kSpacing = 0.5;      // of the samples [m]
-  static constexpr double kStopWithin = 0.25;  // so near before a place to stop at, the speed is 0 [m]
+  static constexpr double kSpacing = 0.5;      // sample spacing [m]
+  static constexpr double kStopWithin = 0.25;  // nearer than this to a stopping point, the speed is 0 [m]
 
   RoadProfile(const Route& route, const RoadBounds& road, const SpeedLimits& limits);
 
@@ -30,12 +30,13 @@ class RoadProfile {
   [[nodiscard]] const RoadBounds& road() const { return road_; }
   [[nodiscard]] const SpeedLimits& limits() const { return limits_; }
 
-  // `speed` is the profile's; straight on before the start, and after the end with speed 0.
+  // `speed` is the profile's. The road continues straight before the start and after the end, where the speed is 0.
   [[nodiscard]] RoutePoint At(double s) const;
-  // The nearest point of the course that is reached from s = `hint` without passing a further one.
+  // The nearest point of the road profile, by local search from s = `hint`.
   [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position, double hint) const;
-  // The nearest point of the whole course, among those whose heading differs by less than π/2 from `psi`: of several
-  // within 1 m of the least distance the first, so that a circuit begins with its first lap. Not for every cycle.
+  // The nearest point of the whole road profile among those whose heading differs from `psi` by less than π/2. Of
+  // several within 1 m of the least distance it is the first, so that a circuit begins with its first lap. It is too
+  // slow for every cycle.
   [[nodiscard]] RouteProjection Find(const Eigen::Vector2d& position, double psi) const;
 
  private:
@@ -46,7 +47,8 @@ class RoadProfile {
   SpeedLimits limits_;
 };
 
-// Highest speed from which `deceleration` [m/s²] stops within `distance` [m]; 0 if that is within kStopWithin.
+// Highest speed from which a vehicle stops within `distance` [m] at `deceleration` [m/s²]; 0 if `distance` is within
+// kStopWithin.
 [[nodiscard]] double StoppingSpeed(double distance, double deceleration);
 
 }  // namespace control

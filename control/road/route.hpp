@@ -2,9 +2,9 @@
 // (X, Y) that the controller is given (paper, Section NMPC: "only the (X_ref, Y_ref) values of the reference
 // are available").
 //
-// A path is either a chain of pieces whose curvature is linear in s (straight, arc, clothoid; positive
-// curvature turns left), integrated to round-off, or a natural cubic spline over chord length through
-// waypoints. Before its start and after its end a route goes on straight.
+// A path is either a chain of pieces whose curvature is linear in s (straight, arc, clothoid; positive curvature
+// turns left), integrated to round-off, or a natural cubic spline over chord length through waypoints. A route
+// continues straight before its start and after its end.
 //
 // Example:
 //   const auto route = control::Route::FromPieces({.X = 0, .Y = 0, .psi = 0}, 12.0, pieces);
@@ -31,7 +31,7 @@ struct RoutePiece {
   double length = 0.0;               // > 0 [m]
   double curvature_from = 0.0;       // [1/m]
   double curvature_to = 0.0;         // [1/m]
-  std::optional<double> speed = {};  // target speed at its end, > 0 [m/s]; none: that of its start
+  std::optional<double> speed = {};  // target speed at its end, > 0 [m/s]; if empty, that of its start
 };
 
 struct RoutePoint {
@@ -49,24 +49,24 @@ struct RouteProjection {
 
 class Route {
  public:
-  // The target speed is `speed` at the start and goes linearly over s to each piece's own. Throws
-  // std::invalid_argument that names the piece if there is none, or a value is not finite or not in the range
+  // The target speed is `speed` at the start and changes linearly over s to that of each piece. Throws
+  // std::invalid_argument, which names the piece, if there are no pieces or a value is not finite or not in the range
   // above.
   [[nodiscard]] static Route FromPieces(const RouteStart& start, double speed,
                                         std::span<const RoutePiece> pieces);
-  // Throws std::invalid_argument that names the waypoint if there are fewer than two, two in a row are the
-  // same, or a value is not finite; and if speed <= 0.
+  // Throws std::invalid_argument, which names the waypoint, if there are fewer than two, two consecutive ones are
+  // equal or a value is not finite, and also if speed <= 0.
   [[nodiscard]] static Route ThroughWaypoints(std::span<const Eigen::Vector2d> waypoints, double speed);
 
   [[nodiscard]] double length() const;    // [m]
   [[nodiscard]] double duration() const;  // at the target speed [s]
 
   [[nodiscard]] RoutePoint At(double s) const;
-  // Where a vehicle is that started at s = 0 at t = 0 and keeps the target speed.
+  // Arc length at time t of a vehicle that starts at s = 0 at t = 0 and keeps the target speed.
   [[nodiscard]] double ArcLengthAt(double t) const;
 
-  // The point of the route nearest to `position`: nearest within 25 m of arc length of `hint` if that is
-  // given, of the whole route otherwise.
+  // The point of the route nearest to `position`: within 25 m of arc length of `hint` if that is given, on the whole
+  // route otherwise.
   [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position,
                                         std::optional<double> hint = {}) const;
 

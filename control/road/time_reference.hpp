@@ -2,11 +2,10 @@
 // indexed by time: point k is where the vehicle should be at k t_s.
 //
 // Errata decided here:
-//  - eq:psi_ref: the arctan of a ratio loses the quadrant and jumps; ψ_ref is the atan2 of the forward
-//  difference,
+//  - eq:psi_ref: the arctan of a ratio loses the quadrant and jumps; ψ_ref is the atan2 of the forward difference,
 //    unwrapped along the path.
-//  - after eq:glob_to_loc: the rotated difference is the displacement itself; υ_ref = x_ref / t_s, ν_ref =
-//  y_ref / t_s.
+//  - after eq:glob_to_loc: the rotated difference is the displacement itself; υ_ref = x_ref / t_s,
+//    ν_ref = y_ref / t_s.
 #pragma once
 
 #include <span>
@@ -18,16 +17,16 @@ namespace control {
 
 class TimeReference {
  public:
-  // At least two points, each different from its predecessor; t_s > 0 [s]. Throws std::invalid_argument that
-  // names the point otherwise.
+  // Requires at least two points, each different from its predecessor, and t_s > 0 [s]. Throws std::invalid_argument,
+  // which names the point, otherwise.
   TimeReference(std::span<const Eigen::Vector2d> points, double t_s);
 
   [[nodiscard]] int size() const { return static_cast<int>(z_.size()); }
   [[nodiscard]] const State& operator[](int k) const { return z_[static_cast<std::size_t>(k)]; }
 
-  // z_ref of step k; past the end the last state is carried on straight at its speed.
+  // z_ref of step k; past the end, the last state continues straight at its speed.
   [[nodiscard]] State At(int k) const;
-  // z_ref of steps k, k+1, ... into `out`.
+  // Writes z_ref of steps k, k+1, ... to `out`.
   void Window(int k, std::span<State> out) const;
 
  private:

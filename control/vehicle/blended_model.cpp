@@ -6,7 +6,7 @@
 namespace control {
 namespace {
 
-// The dynamic model divides by υ, and is asked for no slower one than this: below it its part weighs nothing.
+// The dynamic model divides by υ, so its υ is at least kUpsilon1; below that, the model has no weight.
 State FastEnough(const State& z) {
   State fast = z;
   fast[kUpsilon] = std::max(z[kUpsilon], BlendedModel::kUpsilon1);
@@ -33,7 +33,7 @@ State BlendedModel::Derivative(const State& z, const Input& u, const Angles& ang
   return Blend(z, angles, dynamic_.Derivative(FastEnough(z), u, angles), WeightAt(z[kUpsilon]).w);
 }
 
-// With the dynamic model's derivatives at the state that is fast enough for it.
+// `dynamic` is the dynamic model's derivative at FastEnough(z).
 State BlendedModel::Blend(const State& z, const Angles& angles, const State& dynamic, double w) const {
   const double upsilon = z[kUpsilon], nu = z[kNu];
   const double omega_rolling = upsilon * angles.sin_delta / (angles.cos_delta * wheelbase_);

@@ -1,10 +1,10 @@
-// The vehicle at any speed down to standstill, ż = f(z, u): the dynamic model (vehicle_model.hpp) when it is fast, the
-// kinematic one when it is slow, where slip angles have no meaning and their dynamics no time constant that a sampling
-// time could follow. Both share Ẋ, Ẏ, υ̇, ψ̇; between υ_1 and υ_2 the others go over smoothly:
+// The vehicle at any speed down to standstill, ż = f(z, u): the dynamic model (single_track.hpp) at high speed and
+// the kinematic one at low speed, where slip angles have no meaning and their dynamics are too fast for any sampling
+// time. Both share Ẋ, Ẏ, υ̇, ψ̇; between υ_1 and υ_2 the other derivatives are blended smoothly:
 //
-//   [ν̇ ω̇] = w [ν̇ ω̇]_dynamic + (1 − w) [ν̇ ω̇]_kinematic        w = 3 s² − 2 s³, s = (υ − υ_1)/(υ_2 − υ_1) within 0..1
+//   [ν̇ ω̇] = w [ν̇ ω̇]_dynamic + (1 − w) [ν̇ ω̇]_kinematic     w = 3 s² − 2 s³, s = (υ − υ_1)/(υ_2 − υ_1) within 0..1
 //
-//   ω̇_kinematic = (υ tan δ / (l_f + l_r) − ω) / τ             towards a roll without slip
+//   ω̇_kinematic = (υ tan δ / (l_f + l_r) − ω) / τ             towards rolling without slip
 //   ν̇_kinematic = (l_r υ tan δ / (l_f + l_r) − ν) / τ
 #pragma once
 
@@ -16,8 +16,8 @@ namespace control {
 
 class BlendedModel {
  public:
-  static constexpr double kUpsilon1 = 4.0;  // up to it kinematic [m/s]
-  static constexpr double kUpsilon2 = 8.0;  // from it on dynamic [m/s]
+  static constexpr double kUpsilon1 = 4.0;  // kinematic up to this speed [m/s]
+  static constexpr double kUpsilon2 = 8.0;  // dynamic from this speed on [m/s]
   static constexpr double kTau = 0.1;       // [s]
 
   explicit BlendedModel(const VehicleParameters& parameters);

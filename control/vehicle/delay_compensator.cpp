@@ -20,9 +20,9 @@ void DelayCompensator::Given(const Input& u) {
 // The command of j cycles ago acts from delay − j t_s until delay − (j − 1) t_s.
 State DelayCompensator::Ahead(const State& z, double age) const {
   constexpr double kNothing = 1e-9;  // [s]
-  constexpr double kStep = 0.01;     // of the integration, at most [s]
+  constexpr double kStep = 0.01;     // longest integration step [s]
   State ahead = z;
-  double left = std::min(delay_ + age, kLongest);  // until the new command acts
+  double left = std::min(delay_ + age, kLongest);  // time until the new command acts
   while (left > kNothing) {
     const auto j = static_cast<std::size_t>(std::max(std::ceil(left / t_s_ - 1e-6), 1.0));
     const double step = std::min(left - static_cast<double>(j - 1) * t_s_, left);

@@ -1,5 +1,5 @@
-// Where the vehicle is when a command that is given now begins to act: between command and effect pass the bus, the
-// actuator's dead time and, in the end, its lag, and meanwhile the commands act that were given before.
+// Predicts where the vehicle is when a command given now begins to act: between command and effect lie the bus, the
+// actuator's dead time and finally its lag, and meanwhile the earlier commands act.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@ namespace control {
 class DelayCompensator {
  public:
   static constexpr double kLongest =
-      0.5;  // of delay and age together [s]; of a longer one this much is made up for
+      0.5;  // upper limit of delay plus age [s]; only this much of a longer one is compensated
 
-  // `t_s`: time between two commands, >= 0.005; `delay` from a command to its effect, >= 0 [s].
+  // `t_s` is the time between two commands, >= 0.005; `delay` is that from a command to its effect, >= 0 [s].
   DelayCompensator(const VehicleParameters& vehicle, double t_s, double delay);
 
-  // Once a cycle: the command that was given.
+  // Records the command that was given; called once per cycle.
   void Given(const Input& u);
-  // The vehicle is driven by others: these inputs act, and have done so.
+  // Assumes that `u` acts and has been acting: the vehicle is driven by others.
   void Reset(const Input& u) { given_.fill(u); }
 
-  // The state `delay` after now, of a state measured `age` >= 0 [s] before now. The newest command given is that of the
-  // cycle before.
+  // Predicts the state `delay` after now from the state `z` measured `age` >= 0 [s] before now. The newest command
+  // given is that of the previous cycle.
   [[nodiscard]] State Ahead(const State& z, double age) const;
 
   [[nodiscard]] double delay() const { return delay_; }
@@ -34,7 +34,7 @@ class DelayCompensator {
   BlendedModel model_;
   double t_s_;
   double delay_;
-  std::array<Input, kMost> given_;  // ring
+  std::array<Input, kMost> given_;  // ring buffer
   std::size_t newest_ = 0;
 };
 

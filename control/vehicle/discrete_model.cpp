@@ -5,7 +5,7 @@
 namespace control {
 namespace {
 
-// The classic method: stage j at z + a_j t_s k_{j−1}, weighing b_j.
+// The classic method: stage j is evaluated at z + a_j t_s k_{j−1} and has the weight b_j.
 constexpr std::array<double, 4> kA{0.0, 0.5, 0.5, 1.0};
 constexpr std::array<double, 4> kB{1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
 

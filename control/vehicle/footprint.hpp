@@ -8,13 +8,14 @@
 
 namespace control {
 
-// From the centre of gravity, along the vehicle's axes [m], each >= 0. All 0: the vehicle is a point, as in the paper.
+// Distances from the centre of gravity along the vehicle's axes [m], each >= 0. If all are 0, the vehicle is a point,
+// as in the paper.
 struct Footprint {
   double front = 0.0;
   double rear = 0.0;
   double half_width = 0.0;
 
-  // Front left, front right, rear right, rear left: in the body frame.
+  // Front left, front right, rear right and rear left corner in the body frame.
   [[nodiscard]] std::array<Eigen::Vector2d, 4> Corners() const {
     return {{{front, half_width}, {front, -half_width}, {-rear, -half_width}, {-rear, half_width}}};
   }

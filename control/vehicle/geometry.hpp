@@ -20,7 +20,7 @@ namespace control {
   return {z[kX], z[kY]};
 }
 
-// Where the point `fixed` of the vehicle's body lies from its centre of gravity, in the map.
+// Vector from the vehicle's centre of gravity to the point `fixed` of its body, in the map.
 [[nodiscard]] inline Eigen::Vector2d Rotate(double psi, const Eigen::Vector2d& fixed) {
   return Eigen::Rotation2Dd(psi) * fixed;
 }

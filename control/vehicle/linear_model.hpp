@@ -1,4 +1,4 @@
-// A linear model of the vehicle, ż = A z + B u or z_{k+1} = A z_k + B u_k; of a nonlinear model its Jacobian.
+// A linear model of the vehicle, ż = A z + B u or z_{k+1} = A z_k + B u_k; for a nonlinear model, its Jacobian.
 #pragma once
 
 #include "control/vehicle/types.hpp"

@@ -42,7 +42,7 @@ LinearModel LpvModel::Discrete(const Scheduling& p, double t_s, Discretisation m
   return d;
 }
 
-// With p frozen only w = [ν ω] has dynamics of its own, ẇ = F w + g δ; everything else integrates it:
+// With p frozen, only w = [ν ω] has dynamics of its own, ẇ = F w + g δ; everything else integrates it:
 //   w(t) = Φ w₀ + Γ₁ g δ,   ∫w = Γ₁ w₀ + Γ₂ g δ,   ∫∫w = Γ₂ w₀ + Γ₃ g δ,   Φ = e^{Ft},  Γₖ₊₁ = ∫ Γₖ,  Γ₀ = Φ
 //   ψ(t) = ψ₀ + ∫ω,  υ(t) = υ₀ + a t + ν̂ ∫ω,  X(t) = X₀ + cos ψ̂ ∫υ − sin ψ̂ ∫ν, and Y likewise.
 // Γₖ comes from its Taylor series over a short step, which is then doubled:
@@ -57,7 +57,7 @@ LinearModel LpvModel::ZeroOrderHold(const Scheduling& p, double t_s) const {
   double h = t_s;
   int doublings = 0;
   for (const double norm = F.cwiseAbs().rowwise().sum().maxCoeff(); norm * h > 0.5; ++doublings) h *= 0.5;
-  // Γ₃(h) = h³ Σ (Fh)^j / (j+3)!  by Horner; with |Fh| ≤ 1/2 twelve terms reach round-off.
+  // Γ₃(h) = h³ Σ (Fh)^j / (j+3)!  by Horner's scheme; with |Fh| ≤ 1/2, twelve terms reach round-off.
   constexpr int kTerms = 12;
   const Matrix2 Fh = F * h;
   Matrix2 phi3 = Matrix2::Identity();

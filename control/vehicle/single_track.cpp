@@ -23,7 +23,7 @@ LinearModel SingleTrackModel::Jacobian(const State& z, const Input& u, const Ang
   const auto& p = parameters_;
   const double upsilon = z[kUpsilon], nu = z[kNu], omega = z[kOmega];
   const auto& [sin_psi, cos_psi, sin_delta, cos_delta] = angles;
-  // Tangents of the axles' angles of travel, and the forces' derivatives; ∂F_yf/∂δ = C_αf.
+  // Tangents of the axles' travel angles and derivatives of the forces; ∂F_yf/∂δ = C_αf.
   const double front = (nu + p.l_f * omega) / upsilon, rear = (nu - p.l_r * omega) / upsilon;
   const double f_nu = -p.C_alpha_f / upsilon, f_omega = p.l_f * f_nu, f_upsilon = -front * f_nu;
   const double r_nu = -p.C_alpha_r / upsilon, r_omega = -p.l_r * r_nu, r_upsilon = -rear * r_nu;
@@ -60,11 +60,11 @@ SingleTrackModel::Curvature SingleTrackModel::Hessian(const State& z, const Inpu
   const double sin_delta = std::sin(u[kDelta]), cos_delta = std::cos(u[kDelta]);
   const double front = (nu + p.l_f * omega) / upsilon, rear = (nu - p.l_r * omega) / upsilon;
   const double F_yf = p.C_alpha_f * (u[kDelta] - front);
-  // What F_yf and F_yr weigh in λᵀf, with cos δ held; each curves in υ with ν and ω alone.
+  // Weights of F_yf and F_yr in λᵀf with cos δ held constant; all their second derivatives involve υ.
   const double on_front =
       p.C_alpha_f * (2.0 / p.m * lambda[kNu] * cos_delta + 2.0 / p.I_z * lambda[kOmega] * p.l_f);
   const double on_rear = p.C_alpha_r * (2.0 / p.m * lambda[kNu] - 2.0 / p.I_z * lambda[kOmega] * p.l_r);
-  // Of F_yf cos δ.
+  // Cross term of F_yf cos δ.
   const double turned = -2.0 / p.m * lambda[kNu] * sin_delta * p.C_alpha_f;
 
   Curvature H = Curvature::Zero();

@@ -4,7 +4,7 @@
 //   Ẏ = υ sin ψ + ν cos ψ              ψ̇ = ω
 //   υ̇ = ω ν + a                        ω̇ = (2/I_z) (l_f F_yf − l_r F_yr)
 //
-// with F_yf = C_αf (δ − (ν + l_f ω)/υ) and F_yr = C_αr (l_r ω − ν)/υ of one tyre. Needs υ > 0.
+// with F_yf = C_αf (δ − (ν + l_f ω)/υ) and F_yr = C_αr (l_r ω − ν)/υ for one tyre each. The model requires υ > 0.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace control {
 
-// Sines and cosines of ψ and δ: most of what the model costs, so who needs it more than once hands them on.
+// Sines and cosines of ψ and δ. They dominate the model's cost, so repeated evaluations share them.
 struct Angles {
   double sin_psi, cos_psi, sin_delta, cos_delta;
 

@@ -1,4 +1,4 @@
-// The quantities on the way from a measured state to a command. SI units, radians.
+// The quantities between a measured state and a command, in SI units and radians.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,8 @@ struct Obstacle {
   PassingSide side = PassingSide::kUnknown;
 };
 
-// Distances from the reference path to the road's edges [m], the paper's R_2 (left, positive) and R_1 (right, negative).
+// Distances from the reference path to the road's edges [m]: the paper's R_2 (left, positive) and R_1 (right,
+// negative).
 struct RoadBounds {
   double left = 4.0;
   double right = -4.0;
