@@ -55,14 +55,15 @@ TEST_F(Drive, DemonstrationMeetsItsExpectationsWithLittleMemory) {
   EXPECT_EQ(Property(kVehicle, "Result"), "success") << Journal(kVehicle);
   EXPECT_EQ(Property(kDaemon, "NRestarts"), "0");
 
-  // The kernel counts by its tick of 10 ms and takes 100 times what a processor's own takes for a system call, so the
-  // share of the processor is a figure to look at and no limit.
+  // The kernel of User-Mode Linux counts by its tick of 10 ms and takes 100 times what a processor's own takes for a
+  // system call, so the share of the processor is a figure to look at and no limit. A cycle that the same tick starts is
+  // over before the next one: the share may be 0, and only the start is certain to have been counted.
   const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
   const double memory =
       std::stod(test_support::KernelSays(pid, "VmHWM")) / 1024.0;  // the most that it had [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of this processor, " << memory
             << " MB\n";
-  EXPECT_GT(percent, 0.0);
+  EXPECT_GT(used, 0);
   EXPECT_LT(memory, 20.0);
 }
 
