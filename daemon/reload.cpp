@@ -1,13 +1,13 @@
 #include "daemon/reload.hpp"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <iterator>
 #include <spdlog/spdlog.h>
 #include <utility>
 
 #include "daemon/log.hpp"
+#include "loop/config_tables.hpp"
 
 namespace lpvmpcd {
 
@@ -24,14 +24,13 @@ std::vector<std::string> ChangedKeys(const loop::Config& before, const loop::Con
 }
 
 std::string_view WhyNot(std::string_view key, bool commanding) {
-  constexpr std::array<std::string_view, 5> kWhileNotCommanding{"engage.", "degraded.", "safe_stop.",
-                                                                "monitor.", "status.horizon"};
-  if (key == "log.level") {
-    return "";
-  }
-  if (std::ranges::any_of(kWhileNotCommanding,
-                          [key](std::string_view start) { return key.starts_with(start); })) {
-    return commanding ? "cannot change while commands are enabled" : "";
+  switch (loop::ReloadOf(key)) {
+    case loop::Reload::kAlways:
+      return "";
+    case loop::Reload::kWhileNotCommanding:
+      return commanding ? "cannot change while commands are enabled" : "";
+    case loop::Reload::kNeedsRestart:
+      break;
   }
   return "needs a restart";
 }

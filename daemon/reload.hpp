@@ -1,11 +1,8 @@
-// SIGHUP: a running daemon reads its configuration again and takes all that was changed in it, or nothing.
+// SIGHUP: a running daemon reads its configuration again and takes all that was changed in it, or nothing. Which keys may
+// change and when: loop/config_tables.hpp.
 //
-//   log.level                                                      at any time
-//   engage.*, degraded.*, safe_stop.*, monitor.*, status.horizon   while no commands are enabled
-//   anything else                                                  needs a restart
-//
-// A change is one of the text: a key that is written with the value it had by default counts, and so does one that is
-// written no more. What a named file contains (route, DBC) is not read again.
+// The text of a value decides: a key whose default value is written out counts as changed, and so does a key that is
+// deleted. Files that the configuration names (route, DBC) are not read again.
 #pragma once
 
 #include <functional>

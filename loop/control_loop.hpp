@@ -50,7 +50,7 @@ struct LoopSettings {
   control::VehicleParameters vehicle;     // for the steering of SafeStop
   double stop_deceleration = 3.0;         // of SafeStop [m/s²], 0.1..10
   double standstill_speed = 0.3;          // below it the vehicle stands [m/s], 0..5
-  double engage_min_speed = 3.0;          // [m/s], 0..50
+  double engage_min_speed = 0.0;          // [m/s], 0..50
   double engage_max_heading_error = 0.5;  // against the route [rad], 0..π
   bool send_horizon = true;               // PlannedHorizon frames
   base::Time command_delay{};             // from a command to its effect

@@ -16,7 +16,7 @@ struct RealTimeSettings {
 };
 
 struct ServiceSettings {
-  std::string interface;
+  std::string interface = "can0";
   base::Time period = std::chrono::milliseconds(50);   // of the cycles that the timer starts
   base::Time timeout = std::chrono::milliseconds(75);  // after a state, before the timer starts one
   // Time is the number of cycles times the period, so that a run with a plant that waits for its answers is

@@ -87,7 +87,14 @@ TEST_F(ConfigTest, DefaultsOfTheSettingsAreThoseOfAFileThatGivesNone) {
   EXPECT_EQ(file.affine.road_margin, settings.affine.road_margin);
   EXPECT_EQ(file.affine.stop_gap, settings.affine.stop_gap);
   EXPECT_EQ(file.affine.footprint.half_width, settings.affine.footprint.half_width);
-  EXPECT_EQ(file.affine.trust_region, settings.affine.trust_region);  // that of mpc is the controller's
+  EXPECT_EQ(file.affine.trust_region, settings.affine.trust_region);
+  EXPECT_EQ(file.mpc.trust_region, settings.mpc.trust_region);
+  EXPECT_EQ(file.mpc.discretisation, settings.mpc.discretisation);
+  EXPECT_EQ(file.loop.engage_min_speed, settings.loop.engage_min_speed);
+  EXPECT_EQ(file.loop.standstill_speed, settings.loop.standstill_speed);
+  EXPECT_EQ(file.loop.monitor.stale_periods, settings.loop.monitor.stale_periods);
+  EXPECT_EQ(file.service.interface, settings.service.interface);
+  EXPECT_EQ(file.service.period, settings.service.period);
   EXPECT_EQ(file.affine.adapt_trust_region, settings.affine.adapt_trust_region);
   EXPECT_EQ(file.affine.iterations, settings.affine.iterations);
   EXPECT_EQ(file.speed.lateral, settings.speed.lateral);
@@ -102,6 +109,31 @@ TEST_F(ConfigTest, DefaultsOfTheSettingsAreThoseOfAFileThatGivesNone) {
   EXPECT_EQ(file.loop.stop_deceleration, settings.loop.stop_deceleration);
   EXPECT_EQ(file.service.timeout, settings.service.timeout);
   EXPECT_EQ(file.log_level, settings.log_level);
+}
+
+// What a controller, the loop or the service takes when it is given nothing, where the configuration sets it.
+TEST(Config, DefaultsOfEachRoomAreThoseOfTheConfiguration) {
+  const Config config;
+  const LoopSettings loop;
+  EXPECT_EQ(loop.period, config.loop.period);
+  EXPECT_EQ(loop.deadline, config.loop.deadline);
+  EXPECT_EQ(loop.engage_min_speed, config.loop.engage_min_speed);
+  EXPECT_EQ(loop.modes.degraded_cycles, config.loop.modes.degraded_cycles);
+  EXPECT_EQ(loop.vehicle.m, config.vehicle.m);
+  const ServiceSettings service;
+  EXPECT_EQ(service.period, config.service.period);
+  EXPECT_EQ(service.timeout, config.service.timeout);
+  const control::LpvMpcSettings mpc;
+  EXPECT_EQ(mpc.t_s, config.mpc.t_s);
+  EXPECT_EQ(mpc.P, config.mpc.P);
+  EXPECT_EQ(mpc.u_min, config.mpc.u_min);
+  EXPECT_EQ(mpc.u_max, config.mpc.u_max);
+  EXPECT_EQ(mpc.rate_max, config.mpc.rate_max);
+  const control::LpvAffineSettings affine;
+  EXPECT_EQ(affine.t_s, config.affine.t_s);
+  EXPECT_EQ(affine.u_min, config.affine.u_min);
+  EXPECT_EQ(affine.u_max, config.affine.u_max);
+  EXPECT_EQ(affine.rate_max, config.affine.rate_max);
 }
 
 TEST_F(ConfigTest, TrustRegionOfLpvAffineIsAdaptiveFixedOrNone) {

@@ -527,6 +527,9 @@ TEST_F(ControlLoopTest, AwayFromTheRouteItDoesNotEngageAndSaysSo) {
 }
 
 TEST_F(ControlLoopTest, TooSlowItDoesNotEngage) {
+  LoopSettings settings;
+  settings.engage_min_speed = 3.0;
+  loop_.Reconfigure(settings);
   vehicle_.motion.upsilon = 1.0;
   EXPECT_EQ(Engage().steering.mode, bus::Mode::kStandby);
 }

@@ -1,0 +1,117 @@
+// A key of the daemon's configuration file: how it is read, what the manual says of it, and when a running daemon may
+// take a change of it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/time.hpp"
+#include "config/toml_table.hpp"
+#include "loop/config.hpp"
+
+namespace loop {
+
+enum class Reload : std::uint8_t {
+  kNeedsRestart,
+  kWhileNotCommanding,  // while no commands are enabled
+  kAlways,
+};
+
+// Allowed values of a number, both ends included.
+struct Bounds {
+  double min = std::numeric_limits<double>::lowest();
+  double max = std::numeric_limits<double>::max();
+  std::string unit;
+};
+
+struct ConfigKey {
+  std::string name;
+  std::string default_value;  // as in the file, or the rule by which it follows from other keys
+  std::string allowed;        // values and unit, as the manual gives them; may be empty
+  std::string sentence;       // for the manual, without its full stop
+  // Reads the key, if it is in the table. Throws config::ConfigError.
+  std::function<void(const config::TomlTable& table, Config& config)> read;
+  Reload reload = Reload::kNeedsRestart;
+};
+
+namespace key_detail {
+
+void Read(const config::TomlTable& table, const std::string& name, const Bounds& bounds, double& value);
+void Read(const config::TomlTable& table, const std::string& name, const Bounds& bounds, int& value);
+void Read(const config::TomlTable& table, const std::string& name, const Bounds& bounds, bool& value);
+void Read(const config::TomlTable& table, const std::string& name, const Bounds& bounds, base::Time& value);
+void Read(const config::TomlTable& table, const std::string& name, const Bounds& bounds,
+          std::span<double> values);
+
+[[nodiscard]] std::string Text(double value);
+[[nodiscard]] std::string Text(int value);
+[[nodiscard]] std::string Text(bool value);
+[[nodiscard]] std::string Text(base::Time value);  // [s]
+[[nodiscard]] std::string Text(std::span<const double> values);
+
+[[nodiscard]] std::string Allowed(const Bounds& bounds);
+[[nodiscard]] std::string Allowed(const std::vector<std::string>& choices);
+
+}  // namespace key_detail
+
+// A key whose value is a member of Config: a number, a truth value, a time in seconds or a vector. `place` leads to it:
+// [](Config& c) { return &c.loop.limits.max_steering; }. The member's default is the key's.
+template <typename Place>
+ConfigKey Key(const std::string& name, Place place, const Bounds& bounds, const std::string& sentence,
+              Reload reload = Reload::kNeedsRestart) {
+  // A vector is read and written by its numbers.
+  const auto value = [place](Config& config) -> decltype(auto) {
+    if constexpr (requires { place(config)->data(); }) {
+      return std::span<double>(place(config)->data(), static_cast<std::size_t>(place(config)->size()));
+    } else {
+      return *place(config);
+    }
+  };
+  Config defaults;
+  return {.name = name,
+          .default_value = key_detail::Text(value(defaults)),
+          .allowed = key_detail::Allowed(bounds),
+          .sentence = sentence,
+          .read =
+              [name, value, bounds](const config::TomlTable& table, Config& config) {
+                auto&& read = value(config);
+                key_detail::Read(table, name, bounds, read);
+              },
+          .reload = reload};
+}
+
+// A key whose number follows from other keys, by `rule`, where it is not given.
+template <typename Place>
+ConfigKey OptionalKey(const std::string& name, Place place, const Bounds& bounds, const std::string& rule,
+                      const std::string& sentence, Reload reload = Reload::kNeedsRestart) {
+  return {
+      .name = name,
+      .default_value = rule,
+      .allowed = key_detail::Allowed(bounds),
+      .sentence = sentence,
+      .read =
+          [name, place, bounds](const config::TomlTable& table, Config& config) {
+            if (!table.Has(name)) return;
+            auto& value = place(config)->emplace();
+            if constexpr (requires { value.data(); }) {
+              key_detail::Read(table, name, bounds, {value.data(), static_cast<std::size_t>(value.size())});
+            } else {
+              key_detail::Read(table, name, bounds, value);
+            }
+          },
+      .reload = reload};
+}
+
+// A key that names one of `choices`; `set` takes the index.
+[[nodiscard]] ConfigKey ChoiceKey(const std::string& name, const std::vector<std::string>& choices,
+                                  std::size_t default_choice,
+                                  const std::function<void(Config&, std::size_t)>& set,
+                                  const std::string& sentence, Reload reload = Reload::kNeedsRestart);
+
+}  // namespace loop
