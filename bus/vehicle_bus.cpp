@@ -282,9 +282,8 @@ const MessageInfo* VehicleBus::Find(std::uint32_t id) const {
   return found == binding_->info.end() ? nullptr : &*found;
 }
 
-const MessageInfo* VehicleBus::Find(const std::string& name) const {
-  const auto found = std::ranges::find(binding_->info, name, &MessageInfo::name);
-  return found == binding_->info.end() ? nullptr : &*found;
+const MessageInfo& VehicleBus::InfoOf(std::size_t type) const {
+  return binding_->info[binding_->types[type].message];
 }
 
 const dbc::Database& VehicleBus::database() const {

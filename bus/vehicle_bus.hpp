@@ -35,7 +35,7 @@ struct RawMessage {
   [[nodiscard]] std::span<const std::byte> Payload() const { return {data.data(), length}; }
 };
 
-// What is on the wire of one message of ours, for the receive monitor.
+// How one of the messages stands on the wire.
 struct MessageInfo {
   std::uint32_t id = 0;
   std::string name;
@@ -82,10 +82,16 @@ class VehicleBus {
 
   [[nodiscard]] const std::vector<MessageInfo>& messages() const;
   [[nodiscard]] const MessageInfo* Find(std::uint32_t id) const;
-  [[nodiscard]] const MessageInfo* Find(const std::string& name) const;
+  // Of the frames that carry a typed message: Info<VehiclePose>().
+  template <typename Typed>
+  [[nodiscard]] const MessageInfo& Info() const {
+    return InfoOf(Message(Typed{}).index());
+  }
   [[nodiscard]] const dbc::Database& database() const;
 
  private:
+  [[nodiscard]] const MessageInfo& InfoOf(std::size_t type) const;
+
   struct Binding;
   std::unique_ptr<Binding> binding_;
 };

@@ -16,18 +16,24 @@ bool Acceptable(const control::Plan& plan, int horizon) {
 
 }  // namespace
 
-bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
-  switch (plan.status) {
+SolverOutcome OnBus(control::SolverStatus status) {
+  switch (status) {
     case control::SolverStatus::kSolved:
-      return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
+      return {bus::SolverStatus::kSolved, bus::FaultCode::kNone};
     case control::SolverStatus::kInfeasible:
-      return bus::FaultCode::kSolverInfeasible;
+      return {bus::SolverStatus::kInfeasible, bus::FaultCode::kSolverInfeasible};
     case control::SolverStatus::kIterationLimit:
-      return bus::FaultCode::kSolverIterationLimit;
+      return {bus::SolverStatus::kIterationLimit, bus::FaultCode::kSolverIterationLimit};
     case control::SolverStatus::kNumericalFailure:
       break;
   }
-  return bus::FaultCode::kSolverNumericalFailure;
+  return {bus::SolverStatus::kNumericalFailure, bus::FaultCode::kSolverNumericalFailure};
+}
+
+bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
+  const bus::FaultCode fault = OnBus(plan.status).fault;
+  if (fault != bus::FaultCode::kNone) return fault;
+  return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
 }
 
 CheckVerdict CheckPlan(control::PlanCheck& check, const control::State& z,
@@ -38,20 +44,6 @@ CheckVerdict CheckPlan(control::PlanCheck& check, const control::State& z,
   const auto of_last = check.Judge(z, last, obstacles);
   verdict.ruled_out = !of_last || of_last->constraint.step > verdict.violation->constraint.step;
   return verdict;
-}
-
-bus::SolverStatus ToBus(control::SolverStatus status) {
-  switch (status) {
-    case control::SolverStatus::kSolved:
-      return bus::SolverStatus::kSolved;
-    case control::SolverStatus::kInfeasible:
-      return bus::SolverStatus::kInfeasible;
-    case control::SolverStatus::kIterationLimit:
-      return bus::SolverStatus::kIterationLimit;
-    case control::SolverStatus::kNumericalFailure:
-      break;
-  }
-  return bus::SolverStatus::kNumericalFailure;
 }
 
 }  // namespace loop

@@ -11,6 +11,13 @@
 
 namespace loop {
 
+// How the bus names a solver's status, and the fault that it is.
+struct SolverOutcome {
+  bus::SolverStatus status = bus::SolverStatus::kSolved;
+  bus::FaultCode fault = bus::FaultCode::kNone;
+};
+[[nodiscard]] SolverOutcome OnBus(control::SolverStatus status);
+
 // Why it may not: it was not solved, or is not a plan of N = `horizon` steps of which every value is a number. kNone: it
 // may.
 [[nodiscard]] bus::FaultCode Refusal(const control::Plan& plan, int horizon);
@@ -26,7 +33,5 @@ struct CheckVerdict {
                                      std::span<const control::Input> plan,
                                      std::span<const control::Input> last,
                                      std::span<const control::Obstacle> obstacles);
-
-[[nodiscard]] bus::SolverStatus ToBus(control::SolverStatus status);
 
 }  // namespace loop

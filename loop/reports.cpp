@@ -36,7 +36,7 @@ void Reports::Write(const CycleResult& result, const Planner& planner) {
              .previous_mode = result.before.mode,
              .cause = result.mode.cause,
              .fault = FaultCodeOf(result, planner.last_refusal()),
-             .solver = solution != nullptr ? ToBus(solution->status) : bus::SolverStatus::kNone,
+             .solver = solution != nullptr ? OnBus(solution->status).status : bus::SolverStatus::kNone,
              .iterations = solution != nullptr ? solution->iterations : 0,
              .plan_accepted = outcome.accepted,
              .relaxation = outcome.relaxation,

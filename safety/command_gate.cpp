@@ -1,22 +1,21 @@
 #include "safety/command_gate.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "dbc/e2e.hpp"
 #include "safety/mode_machine.hpp"
 
 namespace safety {
 
-CommandGate::CommandGate(const bus::VehicleBus& bus) : bus_(&bus) {
-  constexpr std::array kNames = {"SteeringCommand",  "AccelerationCommand",   "ControllerStatus",
-                                 "SchedulingHealth", "ControllerDiagnostics", "ConstraintReport",
-                                 "PlannedHorizon"};
-  static_assert(kNames.size() == kTxMessages);
-  for (std::size_t i = 0; i < kTxMessages; ++i) {
-    ids_[i] = bus.Find(std::string(kNames[i]))->id;  // every bus has our messages
-  }
-}
+CommandGate::CommandGate(const bus::VehicleBus& bus)
+    : bus_(&bus),
+      sent_{{{.id = bus.Info<bus::SteeringCommand>().id},
+             {.id = bus.Info<bus::AccelerationCommand>().id},
+             {.id = bus.Info<bus::ControllerStatus>().id},
+             {.id = bus.Info<bus::SchedulingHealth>().id},
+             {.id = bus.Info<bus::ControllerDiagnostics>().id},
+             {.id = bus.Info<bus::ConstraintReport>().id},
+             {.id = bus.Info<bus::HorizonHeader>().id}}} {}
 
 bool CommandGate::Encode(const LimitedCommand& command, const Answer& answer, std::span<can::Frame, 2> out) {
   const bool enable = bus::Commands(answer.mode);
@@ -30,49 +29,23 @@ bool CommandGate::Encode(const LimitedCommand& command, const Answer& answer, st
                                               .state_counter = answer.state_counter,
                                               .plan_age = answer.plan_age,
                                               .acceleration = command.acceleration()};
-  const auto pair = std::to_array<bus::Message>({steering, acceleration});
-  for (const Tx tx : {kSteering, kAcceleration}) {
-    if (!Encode(tx, pair[tx], out[tx])) return false;
-  }
-  return true;
-}
-
-bool CommandGate::Encode(const bus::ControllerStatus& status, can::Frame& out) {
-  return Encode(kStatus, status, out);
-}
-
-bool CommandGate::Encode(const bus::SchedulingHealth& health, can::Frame& out) {
-  return Encode(kHealth, health, out);
-}
-
-bool CommandGate::Encode(const bus::ControllerDiagnostics& diagnostics, can::Frame& out) {
-  return Encode(kDiagnostics, diagnostics, out);
-}
-
-bool CommandGate::Encode(const bus::ConstraintReport& constraint, can::Frame& out) {
-  return Encode(kConstraint, constraint, out);
-}
-
-bool CommandGate::Encode(const bus::HorizonHeader& header, can::Frame& out) {
-  return Encode(kHorizon, header, out);
-}
-
-bool CommandGate::Encode(const bus::HorizonPoint& point, can::Frame& out) {
-  return Encode(kHorizon, point, out);
+  return Encode(bus_->Info<bus::SteeringCommand>().id, steering, out[0]) &&
+         Encode(bus_->Info<bus::AccelerationCommand>().id, acceleration, out[1]);
 }
 
 bool CommandGate::MaySend(const can::Frame& frame) const {
   return frame.kind == can::FrameKind::kData && !frame.extended && !frame.fd &&
-         std::ranges::find(ids_, frame.id) != ids_.end() &&
+         std::ranges::find(sent_, frame.id, &Sent::id) != sent_.end() &&
          bus_->Check(frame.id, frame.Payload()).verdict == bus::E2eVerdict::kOk;
 }
 
-bool CommandGate::Encode(Tx tx, const bus::Message& message, can::Frame& out) {
+bool CommandGate::Encode(std::uint32_t id, const bus::Message& message, can::Frame& out) {
+  std::uint8_t& counter = std::ranges::find(sent_, id, &Sent::id)->counter;
   bus::RawMessage raw;
-  if (bus_->Encode(message, counters_[tx], raw) == dbc::EncodeStatus::kNotFinite) {
+  if (bus_->Encode(message, counter, raw) == dbc::EncodeStatus::kNotFinite) {
     return false;
   }
-  counters_[tx] = dbc::NextCounter(counters_[tx]);
+  counter = dbc::NextCounter(counter);
   out = can::Frame{.id = raw.id, .length = raw.length};
   std::ranges::copy(raw.Payload(), out.data.begin());
   return true;

@@ -1,11 +1,12 @@
-// The only way onto the bus. Makes the frames: takes a command only from the limiter, which judged its range, rate and
-// age, sets `enable` in the modes that command (mode_machine.hpp) and in no other, protects it end to end. And lets
-// them through: the Transmitter asks of every frame whether it may be sent.
+// The only way onto the bus. The gate makes the daemon's frames: it takes a command from the limiter alone, which judged its
+// range, rate and age, enables it in the modes that command (mode_machine.hpp) and in no other, and protects it end to end.
+// The Transmitter asks the gate of every frame whether it may be sent.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "bus/vehicle_bus.hpp"
 #include "can/frame.hpp"
@@ -20,6 +21,13 @@ struct Answer {
   std::uint8_t plan_age = 63;       // cycles; 63, which the frame has for anything above: or no plan
 };
 
+// What the daemon tells beside its commands. The horizon's header and points share a message.
+template <typename Typed>
+concept Report =
+    std::is_same_v<Typed, bus::ControllerStatus> || std::is_same_v<Typed, bus::SchedulingHealth> ||
+    std::is_same_v<Typed, bus::ControllerDiagnostics> || std::is_same_v<Typed, bus::ConstraintReport> ||
+    std::is_same_v<Typed, bus::HorizonHeader> || std::is_same_v<Typed, bus::HorizonPoint>;
+
 class CommandGate {
  public:
   // `bus` must outlive the gate.
@@ -30,35 +38,26 @@ class CommandGate {
   [[nodiscard]] bool Encode(const LimitedCommand& command, const Answer& answer,
                             std::span<can::Frame, 2> out);
 
-  // Reports; each with a counter of its own.
-  [[nodiscard]] bool Encode(const bus::ControllerStatus& status, can::Frame& out);
-  [[nodiscard]] bool Encode(const bus::SchedulingHealth& health, can::Frame& out);
-  [[nodiscard]] bool Encode(const bus::ControllerDiagnostics& diagnostics, can::Frame& out);
-  [[nodiscard]] bool Encode(const bus::ConstraintReport& constraint, can::Frame& out);
-  [[nodiscard]] bool Encode(const bus::HorizonHeader& header, can::Frame& out);
-  [[nodiscard]] bool Encode(const bus::HorizonPoint& point, can::Frame& out);
+  // A report. Every message has a counter of its own. False: as above.
+  template <Report Typed>
+  [[nodiscard]] bool Encode(const Typed& report, can::Frame& out) {
+    return Encode(bus_->Info<Typed>().id, report, out);
+  }
 
-  // True for the frames that this daemon may put on the bus: its seven messages, as standard data frames of the right
-  // length, with the CRC that the gate gave them.
+  // True for the frames that this daemon may put on the bus: standard data frames of its own messages, with the right
+  // length and CRC.
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:
-  enum Tx : std::size_t {
-    kSteering,
-    kAcceleration,
-    kStatus,
-    kHealth,
-    kDiagnostics,
-    kConstraint,
-    kHorizon,
-    kTxMessages
+  struct Sent {
+    std::uint32_t id = 0;
+    std::uint8_t counter = 0;
   };
 
-  [[nodiscard]] bool Encode(Tx tx, const bus::Message& message, can::Frame& out);
+  [[nodiscard]] bool Encode(std::uint32_t id, const bus::Message& message, can::Frame& out);
 
   const bus::VehicleBus* bus_;
-  std::array<std::uint32_t, kTxMessages> ids_{};
-  std::array<std::uint8_t, kTxMessages> counters_{};
+  std::array<Sent, 7> sent_;  // by message
 };
 
 }  // namespace safety

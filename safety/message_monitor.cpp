@@ -1,9 +1,9 @@
 #include "safety/message_monitor.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
+#include "bus/message_fields.hpp"
 #include "dbc/e2e.hpp"
 
 namespace safety {
@@ -11,7 +11,9 @@ namespace {
 
 // By RxMessage: the names in the DBC.
 constexpr auto kMessageNames = std::to_array<std::string_view>(
-    {"VehiclePose", "VehicleMotion", "VehicleFeedback", "ObstacleObject", "ObstacleList", "DriverRequest"});
+    {bus::kFields<bus::VehiclePose>.message, bus::kFields<bus::VehicleMotion>.message,
+     bus::kFields<bus::VehicleFeedback>.message, bus::kFields<bus::ObstaclePosition>.message,
+     bus::kFields<bus::ObstacleList>.message, bus::kFields<bus::DriverRequest>.message});
 static_assert(kMessageNames.size() == kRxMessages);
 
 // By RxFault.
@@ -35,10 +37,13 @@ std::string_view Name(RxFault fault) {
 MessageMonitor::MessageMonitor(const bus::VehicleBus& bus, const MonitorSettings& settings,
                                base::Time default_period)
     : bus_(&bus) {
+  const std::array<const bus::MessageInfo*, kRxMessages> messages{
+      &bus.Info<bus::VehiclePose>(),      &bus.Info<bus::VehicleMotion>(), &bus.Info<bus::VehicleFeedback>(),
+      &bus.Info<bus::ObstaclePosition>(), &bus.Info<bus::ObstacleList>(),  &bus.Info<bus::DriverRequest>()};
   for (std::size_t i = 0; i < kRxMessages; ++i) {
-    const bus::MessageInfo* info = bus.Find(std::string(kMessageNames[i]));  // every bus has our messages
-    table_[i].info = info;
-    table_[i].period = info->period > 0.0 ? info->period : base::ToSeconds(default_period);
+    const double period = messages[i]->period;
+    table_[i].info = messages[i];
+    table_[i].period = period > 0.0 ? period : base::ToSeconds(default_period);
   }
   Reconfigure(settings);
 }

@@ -40,14 +40,10 @@ can::Time Now() {
 }  // namespace
 
 std::vector<can::Filter> ControllerFilters(const bus::VehicleBus& bus) {
-  std::vector<can::Filter> filters;
-  for (const char* name :
-       {"SteeringCommand", "AccelerationCommand", "ControllerStatus", "ConstraintReport"}) {
-    const bus::MessageInfo* info = bus.Find(std::string(name));
-    if (info == nullptr) throw std::runtime_error(fmt::format("the bus has no message {}", name));
-    filters.push_back(can::ExactStandardId(info->id));
-  }
-  return filters;
+  return {can::ExactStandardId(bus.Info<bus::SteeringCommand>().id),
+          can::ExactStandardId(bus.Info<bus::AccelerationCommand>().id),
+          can::ExactStandardId(bus.Info<bus::ControllerStatus>().id),
+          can::ExactStandardId(bus.Info<bus::ConstraintReport>().id)};
 }
 
 BusRun::BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket,

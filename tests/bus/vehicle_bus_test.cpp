@@ -264,11 +264,10 @@ TEST(VehicleBus, MessagesAreToldWithIdPeriodAndDistinctDataIds) {
     EXPECT_EQ(info.length, 8);
     EXPECT_DOUBLE_EQ(info.period, info.name == "ObstacleObject" ? 0.0 : 0.05) << info.name;
     EXPECT_EQ(bus.Find(info.id), &info);
-    EXPECT_EQ(bus.Find(info.name), &info);
     data_ids.insert(info.data_id);
   }
   EXPECT_EQ(data_ids.size(), bus.messages().size());
-  EXPECT_EQ(bus.Find("SteeringCommand")->id, 0x200u);
+  EXPECT_EQ(bus.Info<SteeringCommand>().id, 0x200u);
 }
 
 TEST(VehicleBus, StaysBoundWhenMoved) {

@@ -19,7 +19,10 @@ class FaultyMessageTest : public testing::Test {
       if (frame.id != id) static_cast<void>(monitor_.Check(frame, now_));
     }
   }
-  std::uint32_t IdOf(const char* name) const { return bus_.Find(std::string(name))->id; }
+  template <typename Typed>
+  std::uint32_t IdOf() const {
+    return bus_.Info<Typed>().id;
+  }
 
   bus::VehicleBus bus_;
   MessageMonitor monitor_{bus_, {}, 50ms};
@@ -33,7 +36,7 @@ TEST_F(FaultyMessageTest, NoneWhileAllAreFresh) {
 }
 
 TEST_F(FaultyMessageTest, WithoutObstaclesThereIsNoObstacleObject) {
-  ReceiveAllBut(IdOf("ObstacleObject"));
+  ReceiveAllBut(IdOf<bus::ObstaclePosition>());
   EXPECT_FALSE(FindFaultyMessage(monitor_, now_));
 }
 
@@ -43,7 +46,7 @@ TEST_F(FaultyMessageTest, TheFirstThatDoesNotComeIsNamedWithoutAReason) {
   EXPECT_EQ(none->message, RxMessage::kPose);
   EXPECT_FALSE(none->reason);
 
-  ReceiveAllBut(IdOf("DriverRequest"));
+  ReceiveAllBut(IdOf<bus::DriverRequest>());
   const auto last = FindFaultyMessage(monitor_, now_);
   ASSERT_TRUE(last);
   EXPECT_EQ(last->message, RxMessage::kDriverRequest);
@@ -54,7 +57,7 @@ TEST_F(FaultyMessageTest, OneThatIsRefusedIsNamedWithTheReason) {
   for (int i = 0; i < 10; ++i) {
     now_ += 50ms;
     for (can::Frame frame : vehicle_.All()) {
-      if (frame.id == IdOf("VehicleMotion")) frame.data[0] ^= std::byte{1};
+      if (frame.id == IdOf<bus::VehicleMotion>()) frame.data[0] ^= std::byte{1};
       static_cast<void>(monitor_.Check(frame, now_));
     }
   }
@@ -69,7 +72,7 @@ TEST_F(FaultyMessageTest, ObstacleObjectsThatAreRefusedAreNamed) {
     now_ += 50ms;
     vehicle_.obstacles = {{.object_id = 1, .X = 50.0}};
     for (can::Frame frame : vehicle_.All()) {
-      if (frame.id == IdOf("ObstacleObject")) frame.data[0] ^= std::byte{1};
+      if (frame.id == IdOf<bus::ObstaclePosition>()) frame.data[0] ^= std::byte{1};
       static_cast<void>(monitor_.Check(frame, now_));
     }
   }

@@ -155,7 +155,7 @@ TEST_F(MessageMonitorTest, AnyFlippedBitOfThePayloadIsAWrongCrc) {
 
 TEST_F(MessageMonitorTest, PayloadUnderTheIdOfAnotherMessageIsAWrongCrc) {
   can::Frame frame = Pose(0);
-  frame.id = bus_.Find(std::string("VehicleMotion"))->id;
+  frame.id = bus_.Info<bus::VehicleMotion>().id;
   EXPECT_EQ(Refused(frame), RxFault::kWrongCrc);
 }
 

@@ -71,10 +71,6 @@ testing::AssertionResult Says(const char* unit, std::string_view text) {
   return testing::AssertionFailure() << unit << " does not say \"" << text << "\" but:\n" << seen;
 }
 
-can::Filter BusWatch::Filter(const char* message) const {
-  return can::ExactStandardId(bus_.Find(std::string(message))->id);
-}
-
 const std::vector<BusWatch::Command>& BusWatch::Commands() {
   can::Received received;
   for (auto status = socket_.Receive(received); status != can::ReceiveStatus::kWouldBlock;

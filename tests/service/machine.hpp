@@ -65,10 +65,14 @@ class BusWatch {
 
  private:
   bus::VehicleBus bus_;
-  can::Socket socket_{kInterface, {.filters = {Filter("SteeringCommand"), Filter("AccelerationCommand")}}};
+  can::Socket socket_{kInterface,
+                      {.filters = {Filter<bus::SteeringCommand>(), Filter<bus::AccelerationCommand>()}}};
   std::vector<Command> commands_;
 
-  [[nodiscard]] can::Filter Filter(const char* message) const;
+  template <typename Command>
+  [[nodiscard]] can::Filter Filter() const {
+    return can::ExactStandardId(bus_.Info<Command>().id);
+  }
 };
 
 // The wall clock, which stamps frames.

@@ -67,7 +67,7 @@ TEST(ClosedLoop, StopEndsTheDriveThere) {
 
 TEST(ClosedLoop, SameScenarioGivesTheSameFramesButForTheTimeThatSolvingTook) {
   const bus::VehicleBus bus;
-  const std::uint32_t status = bus.Find("ControllerStatus")->id;
+  const std::uint32_t status = bus.Info<bus::ControllerStatus>().id;
   const Drive a = DriveDemo(), b = DriveDemo();
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {

@@ -97,7 +97,7 @@ TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
   const std::filesystem::path log = folder->path() / "memory.log";
   ASSERT_EQ(test_support::Run({LPVMPC, "run", "--scenario", kScenario, "--log", log.string()}).status, 0);
   const bus::VehicleBus bus;
-  const std::set<std::uint32_t> ids{bus.Find("SteeringCommand")->id, bus.Find("AccelerationCommand")->id};
+  const std::set<std::uint32_t> ids{bus.Info<bus::SteeringCommand>().id, bus.Info<bus::AccelerationCommand>().id};
   std::vector<can::Frame> on_bus = WithId(ReadLog(folder->path() / "candump.log"), ids);
   const std::vector<can::Frame> in_memory = WithId(ReadLog(log), ids);
   // On the bus the daemon's last words follow, a pair that is not enabled.
