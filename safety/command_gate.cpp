@@ -29,8 +29,11 @@ bool CommandGate::Encode(const LimitedCommand& command, const Answer& answer, st
                                               .state_counter = answer.state_counter,
                                               .plan_age = answer.plan_age,
                                               .acceleration = command.acceleration()};
-  return Encode(bus_->Info<bus::SteeringCommand>().id, steering, out[0]) &&
-         Encode(bus_->Info<bus::AccelerationCommand>().id, acceleration, out[1]);
+  const auto pair = std::to_array<bus::Message>({steering, acceleration});
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    if (!Encode(sent_[i].id, pair[i], out[i])) return false;
+  }
+  return true;
 }
 
 bool CommandGate::MaySend(const can::Frame& frame) const {

@@ -57,7 +57,7 @@ class CommandGate {
   [[nodiscard]] bool Encode(std::uint32_t id, const bus::Message& message, can::Frame& out);
 
   const bus::VehicleBus* bus_;
-  std::array<Sent, 7> sent_;  // by message
+  std::array<Sent, 7> sent_;  // by message, the commands first
 };
 
 }  // namespace safety

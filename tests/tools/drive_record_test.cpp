@@ -25,8 +25,9 @@ class DriveRecordTest : public testing::Test {
     for (const can::Frame& frame : frames) recorder.Take(frame);
     return recorder.record();
   }
-  [[nodiscard]] bool Is(const can::Frame& frame, const char* message) const {
-    return frame.id == bus_.Find(message)->id;
+  template <typename Typed>
+  [[nodiscard]] bool Is(const can::Frame& frame) const {
+    return frame.id == bus_.Info<Typed>().id;
   }
 
   const bus::VehicleBus bus_;
@@ -68,8 +69,8 @@ TEST_F(DriveRecordTest, LostStateSetsLeaveAGapInTime) {
   std::vector<can::Frame> frames = frames_;
   int pose = 0;
   std::erase_if(frames, [&](const can::Frame& frame) {
-    if (Is(frame, "VehiclePose")) ++pose;
-    return Is(frame, "VehiclePose") && pose >= 101 && pose <= 103;
+    if (Is<bus::VehiclePose>(frame)) ++pose;
+    return Is<bus::VehiclePose>(frame) && pose >= 101 && pose <= 103;
   });
   const DriveRecord whole = Record(frames_), record = Record(frames);
   ASSERT_EQ(record.samples.size() + 3, whole.samples.size());
@@ -92,10 +93,11 @@ TEST_F(DriveRecordTest, RepeatedStateSetAndStatusOfTheTimerChangeNothing) {
   for (const can::Frame& frame : frames_) {
     frames.push_back(frame);
     // A set again as a whole, and a second status after it.
-    if (!Is(frame, "ControllerStatus")) continue;
-    for (const char* name : {"VehiclePose", "VehicleMotion", "VehicleFeedback"}) {
+    if (!Is<bus::ControllerStatus>(frame)) continue;
+    for (const std::uint32_t id : {bus_.Info<bus::VehiclePose>().id, bus_.Info<bus::VehicleMotion>().id,
+                                   bus_.Info<bus::VehicleFeedback>().id}) {
       const auto last =
-          std::find_if(frames.rbegin(), frames.rend(), [&](const auto& f) { return Is(f, name); });
+          std::find_if(frames.rbegin(), frames.rend(), [&](const auto& f) { return f.id == id; });
       frames.push_back(can::Frame(*last));
     }
     frames.push_back(frame);
@@ -112,7 +114,7 @@ TEST_F(DriveRecordTest, RepeatedStateSetAndStatusOfTheTimerChangeNothing) {
 TEST_F(DriveRecordTest, OrderOfAStateSetDoesNotMatter) {
   std::vector<can::Frame> frames = frames_;
   for (std::size_t i = 0; i + 2 < frames.size(); ++i) {
-    if (!Is(frames[i], "VehiclePose")) continue;
+    if (!Is<bus::VehiclePose>(frames[i])) continue;
     std::swap(frames[i], frames[i + 2]);  // feedback, motion, pose
     i += 2;
   }
@@ -126,8 +128,8 @@ TEST_F(DriveRecordTest, AnswerToAStateThatWasLostIsNobodys) {
   std::vector<can::Frame> frames = frames_;
   int pose = 0;
   std::erase_if(frames, [&](const can::Frame& frame) {
-    if (Is(frame, "VehiclePose")) ++pose;
-    return Is(frame, "VehiclePose") && pose == 301;
+    if (Is<bus::VehiclePose>(frame)) ++pose;
+    return Is<bus::VehiclePose>(frame) && pose == 301;
   });
   const DriveRecord record = Record(frames), whole = Record(frames_);
   EXPECT_EQ(record.samples[299].plan, whole.samples[299].plan);
@@ -144,7 +146,7 @@ TEST_F(DriveRecordTest, PositionOfAMovingObstacleIsMovedBackToTheStart) {
                                {.frame = [&](const can::Frame& frame) {
                                  whole.Take(frame);
                                  const bool lost = frame.timestamp < std::chrono::seconds(5);
-                                 if (!lost || !Is(frame, "ObstacleObject")) late.Take(frame);
+                                 if (!lost || !Is<bus::ObstaclePosition>(frame)) late.Take(frame);
                                }});
   ASSERT_EQ(whole.record().obstacles.size(), 1u);
   ASSERT_EQ(late.record().obstacles.size(), 1u);
@@ -186,7 +188,7 @@ TEST_F(DriveRecordTest, FrameThatFailsItsCheckOrIsOfAnotherSenderIsPassedOver) {
   std::vector<can::Frame> frames = frames_;
   int spoilt = 0;
   for (can::Frame& frame : frames) {
-    if (!Is(frame, "VehicleMotion") || spoilt == 50) continue;
+    if (!Is<bus::VehicleMotion>(frame) || spoilt == 50) continue;
     frame.data[7] ^= std::byte{1};
     ++spoilt;
   }
