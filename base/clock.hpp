@@ -6,19 +6,19 @@
 
 namespace base {
 
-// CLOCK_MONOTONIC: what the daemon goes by.
+// CLOCK_MONOTONIC, the daemon's clock.
 [[nodiscard]] Time MonotonicNow();
-// CLOCK_REALTIME: what the kernel stamps frames by. It may be set at any time.
+// CLOCK_REALTIME, the clock of the kernel's frame timestamps. It may be set at any time.
 [[nodiscard]] Time RealNow();
 
-// By CLOCK_MONOTONIC.
+// A timer on CLOCK_MONOTONIC. A failed system call throws std::runtime_error.
 class Timer {
  public:
   Timer();
 
-  // Expires once after `first`, then every `every`; never if both are 0.
+  // Expires after `first` and then every `every`, or once if `every` is 0. `first` = 0 disarms the timer.
   void Set(Time first, Time every = {});
-  // False if it was set anew since it became readable.
+  // False if the timer was set again since it became readable.
   [[nodiscard]] bool Expired();
 
   [[nodiscard]] int fd() const { return fd_.get(); }

@@ -7,7 +7,7 @@
 namespace base {
 namespace {
 
-// Below 64 each value is a bucket; of a larger one the six leading bits count, and how many follow them.
+// Each value below 64 has its own bucket. Larger values share one if their six leading bits and their length agree.
 constexpr int kLeadingBits = 6;
 constexpr std::uint64_t kPerPowerOfTwo = 1U << (kLeadingBits - 1);
 

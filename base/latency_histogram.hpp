@@ -1,5 +1,5 @@
-// How often which time was taken: 32 buckets for each power of two, of fixed number, so that counting a time costs
-// nothing and neither does waiting for years.
+// Histogram of durations with 32 buckets per power of two. The number of buckets is fixed: adding a duration takes
+// constant time, and memory does not grow over years.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@ namespace base {
 
 class LatencyHistogram {
  public:
-  // By this share of itself, at most, a percentile is told too long, never too short: that of a bucket's width.
+  // Percentiles are over-reported by at most this fraction, the width of a bucket, never under-reported.
   static constexpr double kRelativeError = 1.0 / 32;
-  // Up to it the error holds; longer times are counted as longer than this.
+  // The error bound holds up to this time; longer times are counted as this one.
   static constexpr Time kLongest{(std::int64_t{1} << 37) - 1};  // 137 s
 
-  // A time below zero counts as none.
+  // A negative time counts as 0.
   void Add(Time time);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] Time max() const { return max_; }  // exact; 0 before the first
-  // Nearest rank: the shortest time that is not exceeded by more than 1 − `share`, 0..1, of all. 0 before the first.
+  // Nearest rank: the shortest time exceeded by at most a fraction 1 − `share`, 0..1, of all times. 0 before the first.
   [[nodiscard]] Time Percentile(double share) const;
 
  private:
@@ -33,10 +33,10 @@ class LatencyHistogram {
   Time max_{};
 };
 
-// How quick the daemon is.
+// Latencies of the daemon.
 struct Latencies {
-  LatencyHistogram cycle;  // of each state that was answered: arrival of its last frame to both commands sent
-  LatencyHistogram step;   // of each control step that made a plan, accepted or not
+  LatencyHistogram cycle;  // cycles started by a state: arrival of its last frame to both commands sent
+  LatencyHistogram step;   // control steps that solved a problem, whether the plan was accepted or not
 };
 
 }  // namespace base

@@ -1,4 +1,4 @@
-// Percentiles of figures that were measured.
+// Percentiles of measured values.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +8,12 @@
 
 namespace base {
 
-// Nearest-rank percentile: the smallest value of `sorted` above which lie no more than 1 - `share`, 0..1, of them.
-// T{} if there are none.
+// Nearest-rank percentile: the smallest value of `sorted` exceeded by at most a fraction 1 - `share`, 0..1, of the
+// values. T{} if `sorted` is empty.
 template <typename T>
 [[nodiscard]] T Percentile(const std::vector<T>& sorted, double share) {
   if (sorted.empty()) return T{};
-  // Less a whisker: 0.07 * 100 is a little more than 7.
+  // The small margin absorbs rounding: 0.07 * 100 is a little more than 7.
   const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size()) - 1e-9));
   return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }

@@ -8,7 +8,7 @@
 
 namespace base {
 
-// `result`, unless it is that of a failed call: then throws std::runtime_error with the call's name and errno's text.
+// Returns `result`; if it is negative, throws std::runtime_error with the call's name and the text of errno.
 inline int Checked(int result, const char* call) {
   if (result < 0) {
     throw std::runtime_error(std::string(call) + ": " + std::strerror(errno));

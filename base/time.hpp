@@ -1,4 +1,4 @@
-// Time inside the daemon: an argument everywhere, read from a clock by the service alone.
+// Time inside the daemon. It is passed as an argument everywhere; only the service reads a clock.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace base {
 
-// Since an arbitrary start, never going back: CLOCK_MONOTONIC on a real bus, steps times the period in lock
+// Time since an arbitrary start, never decreasing: CLOCK_MONOTONIC on a real bus, cycles times the period in lock
 // step.
 using Time = std::chrono::nanoseconds;
 
@@ -22,8 +22,8 @@ using Time = std::chrono::nanoseconds;
   return std::chrono::duration<double, std::milli>(time).count();
 }
 
-// When a frame arrived. The kernel stamps frames by a clock that may be set at any time, so the age that this clock
-// tells is believed only within what is certain: not later than now, not before the queue was last seen empty.
+// Arrival time of a frame. The kernel's timestamps come from a clock that may be set at any time, so the resulting age
+// is clamped to what is certain: no later than now, and not before the queue was last seen empty.
 [[nodiscard]] constexpr Time ArrivalTime(Time now, Time age, Time last_empty) {
   return std::clamp(now - age, std::min(last_empty, now), now);
 }

@@ -1,5 +1,5 @@
-// Which member of a typed message goes by which signal name: the only place where the names of vehicle.dbc
-// stand in C++.
+// Maps the members of the typed messages to signals. Apart from those of the end-to-end protection (vehicle_bus.hpp),
+// the names of vehicle.dbc appear in C++ only here.
 #pragma once
 
 #include <cmath>
@@ -109,7 +109,7 @@ inline constexpr auto kFields<ConstraintReport> =
            Field{"Constraint", &ConstraintReport::constraint}, Field{"Index", &ConstraintReport::index},
            Field{"Step", &ConstraintReport::step}, Field{"Amount", &ConstraintReport::amount});
 
-// The last enumerator of each enumeration; all of them begin at 0 and leave no gap.
+// The last enumerator of each enumeration; all enumerations begin at 0 and have no gaps.
 inline constexpr ConstraintVerdict LastOf(ConstraintVerdict) {
   return ConstraintVerdict::kRejected;
 }
@@ -132,7 +132,7 @@ inline constexpr ModeCause LastOf(ModeCause) {
   return ModeCause::kPlanRejected;
 }
 
-// A member as the physical value of its signal, and back; false if the member cannot hold the value.
+// Conversion of a member to the physical value of its signal, and back; false if the member cannot hold the value.
 template <typename Member>
 [[nodiscard]] double ToPhysical(Member member) {
   return static_cast<double>(member);

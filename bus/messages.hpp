@@ -1,6 +1,5 @@
-// The messages of this project as physical values: SI units, radians. vehicle.dbc says where each of them stands
-// on the wire; the names of messages and signals there are the names of the structs and members here, in
-// CamelCase.
+// The messages of this project as physical values in SI units and radians. vehicle.dbc defines their layout on the
+// wire; message_fields.hpp maps each struct and member to a message and a signal there.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +26,7 @@ struct VehicleFeedback {
 
 enum class PassingSide : std::uint8_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
-// One obstacle is told by three frames of the multiplexed message ObstacleObject, in this order.
+// An obstacle is sent as three frames of the multiplexed message ObstacleObject, in this order.
 struct ObstaclePosition {
   std::uint8_t object_id = 0;
   double X = 0.0;  // centre in the map [m]
@@ -45,15 +44,15 @@ struct ObstacleMotion {
   double velocity_X = 0.0;  // in the map [m/s]
   double velocity_Y = 0.0;
 };
-// Ends a cycle's obstacle frames: the objects told since the last list are all there are.
+// Ends a cycle's obstacle frames: the objects sent since the previous list are all the obstacles.
 struct ObstacleList {
   std::uint8_t count = 0;
 };
 
 struct DriverRequest {
   bool engage = false;             // held while automatic driving is wanted; engagement needs a rising edge
-  bool brake = false;              // driver brakes: override
-  bool steering_override = false;  // driver steers: override
+  bool brake = false;              // the driver brakes: override
+  bool steering_override = false;  // the driver steers: override
 };
 
 // ---- out: from the controller ----
@@ -66,7 +65,7 @@ enum class Mode : std::uint8_t {
   kFault = 5
 };
 
-// True in the modes that drive along a plan.
+// True in the modes that follow a plan.
 [[nodiscard]] constexpr bool Drives(Mode mode) {
   return mode == Mode::kActive || mode == Mode::kDegraded;
 }
@@ -78,8 +77,8 @@ enum class Mode : std::uint8_t {
 struct SteeringCommand {
   bool enable = false;
   Mode mode = Mode::kInit;
-  std::uint8_t state_counter = 0;  // counter of the state set that this answers, 15 if it answers none
-  std::uint8_t plan_age = 0;       // cycles since the plan behind it was made, 63 = 63 or more, or no plan
+  std::uint8_t state_counter = 0;  // counter of the answered state set, 15 if none is answered
+  std::uint8_t plan_age = 0;       // cycles since the plan behind it was made; 63: 63 or more, or no plan
   double delta = 0.0;              // [rad]
 };
 struct AccelerationCommand {
@@ -101,7 +100,7 @@ enum class SolverStatus : std::uint8_t {
 enum class FaultCode : std::uint8_t {
   kNone = 0,
   kStateStale = 1,
-  kStateInvalid = 2,  // CRC or counter of the state's messages persistently bad
+  kStateInvalid = 2,  // stale because frames of the state's messages are refused
   kObstaclesStale = 3,
   kDriverRequestStale = 4,
   kSolverInfeasible = 5,
@@ -113,8 +112,8 @@ enum class FaultCode : std::uint8_t {
   kBusDown = 11,
   kInternalError = 12,
   kStateLate = 13,       // no new state in this cycle
-  kDeadlineMissed = 14,  // the plan came too late to be used
-  kPlanRejected = 15,    // solved, but not fit to be followed
+  kDeadlineMissed = 14,  // the plan was too late to be used
+  kPlanRejected = 15,    // solved, but must not be followed
 };
 // Why a mode was entered.
 enum class ModeCause : std::uint8_t {
@@ -145,7 +144,7 @@ struct ControllerStatus {
   FaultCode fault_code = FaultCode::kNone;
   SolverStatus solver_status = SolverStatus::kNone;
   std::uint8_t iterations = 0;
-  double solve_time = 0.0;            // whole control step [s]
+  double solve_time = 0.0;            // of the whole control step [s]
   std::uint16_t deadline_misses = 0;  // since start, modulo 1024
 };
 struct SchedulingHealth {
@@ -154,10 +153,10 @@ struct SchedulingHealth {
   std::uint16_t active_rows = 0;  // active trust-region constraints
   double largest_slack = 0.0;     // in trust-region radii
 };
-// The planned horizon: one header frame, then a frame for each of its points.
+// The planned horizon: a header frame, then one frame per point.
 struct HorizonHeader {
   std::uint8_t points = 0;         // N + 1
-  std::uint8_t state_counter = 0;  // counter of the state set that it starts from
+  std::uint8_t state_counter = 0;  // counter of the state set at which the horizon starts
   double step = 0.0;               // t_s [s]
 };
 struct HorizonPoint {
@@ -168,11 +167,11 @@ struct HorizonPoint {
 
 struct ControllerDiagnostics {
   ModeCause cause = ModeCause::kStart;  // why the present mode was entered
-  Mode previous_mode = Mode::kInit;     // before the present one
-  double countdown = 12.75;         // until it begins to stop the vehicle [s]; 12.75: that or longer, or none
+  Mode previous_mode = Mode::kInit;     // mode before the present one
+  double countdown = 12.75;         // until the stop begins [s]; 12.75: 12.75 s or longer, or none
   std::uint8_t faulty_message = 0;  // VAL_ FaultyMessage of vehicle.dbc, 0: none
   std::uint8_t frame_fault = 0;     // VAL_ FrameFault of vehicle.dbc, 0: none
-  double cycle_latency = 0.0;       // arrival of the state to both commands sent, in the cycle before [s]
+  double cycle_latency = 0.0;       // last cycle started by a state: its arrival to both commands sent [s]
   std::uint16_t plans_refused = 0;  // since start, modulo 1024
 };
 
@@ -188,13 +187,13 @@ enum class ConstraintName : std::uint8_t {
   kTrust = 7,
 };
 
-// What a plan could not meet.
+// The constraint that a plan could not meet.
 struct ConstraintReport {
   ConstraintVerdict verdict = ConstraintVerdict::kMet;
   ConstraintName constraint = ConstraintName::kModel;
-  std::uint8_t index = 0;  // id of the obstacle, number of the state or input
+  std::uint8_t index = 0;  // id of the obstacle, or index of the state or input
   std::uint8_t step = 0;   // of the horizon
-  double amount = 0.0;     // in the unit of what is constrained
+  double amount = 0.0;     // in the unit of the constrained quantity
 };
 
 using Message =

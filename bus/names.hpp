@@ -1,4 +1,4 @@
-// Names of the bus's enumerations for people: in logs and reports.
+// Readable names of the bus's enumerators, for logs and reports.
 #pragma once
 
 #include <string_view>

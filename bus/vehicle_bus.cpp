@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kTypes = std::variant_size_v<Message>;
 
-// A message of the DBC with what every message of ours has.
+// A message of the DBC with the signals and attributes that all our messages have.
 struct BoundMessage {
   std::uint32_t id = 0;
   std::size_t length = 0;
@@ -26,7 +26,7 @@ struct BoundMessage {
   std::vector<std::size_t> types;  // the typed messages that it carries, as indices of the variant
 };
 
-// A typed message: its signals in the order of kFields.
+// A typed message, with its signals in the order of kFields.
 struct BoundType {
   std::size_t message = 0;                   // index in Binding::messages
   const dbc::Signal* multiplexor = nullptr;  // nullptr: not multiplexed
@@ -87,7 +87,7 @@ double RequireNumber(const dbc::MessageDefinition& message, const char* attribut
 struct VehicleBus::Binding {
   dbc::Database database;
   std::vector<MessageInfo> info;       // in the order of `messages`
-  std::vector<BoundMessage> messages;  // pointers in here lead into `database`
+  std::vector<BoundMessage> messages;  // its pointers point into `database`
   std::array<BoundType, kTypes> types;
 
   explicit Binding(dbc::Database given) : database(std::move(given)) {
@@ -154,7 +154,7 @@ struct VehicleBus::Binding {
     bound.length = message.length;
     bound.crc = &Require(message, kCrcSignal);
     bound.counter = &Require(message, kCounterSignal);
-    // A default would be the same for all messages: the data id must be the message's own.
+    // The attribute's default is not used: it would give all messages the same data id.
     const auto data_id = message.attributes.find("E2EDataId");
     bound.data_id = static_cast<std::uint16_t>(RequireNumber(
         message, "E2EDataId", data_id != message.attributes.end() ? &data_id->second : nullptr, 65535.0));
@@ -181,7 +181,7 @@ struct VehicleBus::Binding {
     }
   }
 
-  // No two signals that are written into one frame share a bit.
+  // Throws if two signals that are written into one frame share a bit.
   void CheckOverlap(const BoundType& type) const {
     const BoundMessage& message = messages[type.message];
     std::vector<const dbc::Signal*> signals{message.crc, message.counter};
@@ -205,7 +205,7 @@ struct VehicleBus::Binding {
     return found == messages.end() ? nullptr : &*found;
   }
 
-  // Index of the typed message that the payload carries; kTypes if it carries none.
+  // Index of the typed message in the payload; kTypes if there is none.
   [[nodiscard]] std::size_t FindType(std::uint32_t id, std::span<const std::byte> payload) const {
     const BoundMessage* bound = Find(id);
     if (bound == nullptr || payload.size() < bound->length) return kTypes;

@@ -1,4 +1,4 @@
-// The typed messages bound to a DBC: physical values to payload bytes and back, with end-to-end protection.
+// The typed messages bound to a DBC: converts physical values to payload bytes and back, with end-to-end protection.
 //
 // Example:
 //   VehicleBus bus;                                        // the built-in dbc/vehicle.dbc
@@ -35,7 +35,7 @@ struct RawMessage {
   [[nodiscard]] std::span<const std::byte> Payload() const { return {data.data(), length}; }
 };
 
-// How one of the messages stands on the wire.
+// A message on the wire.
 struct MessageInfo {
   std::uint32_t id = 0;
   std::string name;
@@ -48,41 +48,40 @@ enum class E2eVerdict : std::uint8_t { kOk, kWrongLength, kWrongCrc, kInvalidCou
 
 struct E2eCheck {
   E2eVerdict verdict = E2eVerdict::kUnknownMessage;
-  std::uint8_t counter = 0;  // as received; valid unless the length is wrong or the message unknown
+  std::uint8_t counter = 0;  // as received; valid unless the length is wrong or the message is unknown
 };
 
-// Every id here is a standard one: keep extended frames away from Check and Decode, they could bear the same
+// All ids here are standard ids. Extended frames must not be passed to Check or Decode: they could have the same
 // number.
 class VehicleBus {
  public:
   VehicleBus();  // the built-in vehicle.dbc
-  // Any DBC with the same names. Throws std::runtime_error that names the message, signal or attribute that
-  // `database` lacks or that cannot carry ours (an extended id, more than 8 bytes, a CRC that is not byte 0, signals
-  // of one frame that overlap).
+  // `database` is any DBC with the same names. Throws std::runtime_error naming the message, signal or attribute that
+  // is missing or unsuitable (an extended id, more than 8 bytes, a CRC that is not byte 0, overlapping signals in one
+  // frame).
   explicit VehicleBus(dbc::Database database);
   ~VehicleBus();
   VehicleBus(VehicleBus&&) noexcept;
   VehicleBus& operator=(VehicleBus&&) noexcept;
 
-  // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value
-  // (kNotFinite, `out` is unchanged). Of `counter` the lower four bits are sent, 15 too, which no receiver
-  // accepts. Does not allocate.
+  // Saturates to the signals' ranges (kSaturated, `out` is written); refuses a NaN or infinite value (kNotFinite, `out`
+  // is unchanged). The lower four bits of `counter` are sent, even 15, which no receiver accepts. Does not allocate.
   [[nodiscard]] dbc::EncodeStatus Encode(const Message& message, std::uint8_t counter, RawMessage& out) const;
 
-  // Length, CRC and range of the counter; whether the counter follows its predecessor is the receiver's to
-  // judge.
+  // Checks length, CRC and range of the counter. Whether the counter follows its predecessor is for the receiver to
+  // check.
   [[nodiscard]] E2eCheck Check(std::uint32_t id, std::span<const std::byte> payload) const;
 
-  // False if a value that Decode would tell lies outside the range that the DBC gives it, or is not finite.
+  // False if a value that Decode would return is outside its range in the DBC or not finite.
   [[nodiscard]] bool InRange(std::uint32_t id, std::span<const std::byte> payload) const;
 
-  // Nothing if the id is not one of ours, the payload is too short, or a multiplexor or enumeration has no
-  // such value.
+  // nullopt if the id is not one of ours, the payload is too short, the multiplexor's value is unknown, or a member
+  // cannot hold its value (an enumeration without it, a number that is not finite).
   [[nodiscard]] std::optional<Message> Decode(std::uint32_t id, std::span<const std::byte> payload) const;
 
   [[nodiscard]] const std::vector<MessageInfo>& messages() const;
   [[nodiscard]] const MessageInfo* Find(std::uint32_t id) const;
-  // Of the frames that carry a typed message: Info<VehiclePose>().
+  // The DBC message that carries a typed message: Info<VehiclePose>().
   template <typename Typed>
   [[nodiscard]] const MessageInfo& Info() const {
     return InfoOf(Message(Typed{}).index());
@@ -96,7 +95,7 @@ class VehicleBus {
   std::unique_ptr<Binding> binding_;
 };
 
-// Text of the built-in dbc/vehicle.dbc.
+// The text of the built-in dbc/vehicle.dbc.
 [[nodiscard]] std::string_view BuiltInDbc();
 
 }  // namespace bus

@@ -32,7 +32,7 @@ void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base:
     const bool bad = report.mode == bus::Mode::kSafeStop || report.mode == bus::Mode::kFault;
     spdlog::log(bad ? spdlog::level::warn : spdlog::level::info, "mode {} -> {}: {}",
                 Name(report.previous_mode), Name(report.mode), safety::Name(report.cause));
-    told_fault_ = report.fault;  // most often it is the cause
+    told_fault_ = report.fault;  // usually this is the cause, which was just logged
   } else if (!faulty) {
     told_fault_ = report.fault;
   } else if (report.fault != told_fault_ && now - last_fault_ >= 1s) {
@@ -77,7 +77,7 @@ void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base:
   }
 }
 
-// At most once a second.
+// Logs at most once a second.
 void EventLog::Constraint(const loop::CycleReport& report, base::Time now) {
   const auto& violation = report.unmet();
   if (!violation || (constraint_told_ && now - last_constraint_ < 1s)) return;

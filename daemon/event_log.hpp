@@ -1,4 +1,4 @@
-// What the daemon says: a line for each event, at most one a second for events that come in numbers.
+// Events in the daemon's log: one line per event, at most one per second for frequent events.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace lpvmpcd {
 
-// Says how often something has happened, at most once a second.
+// Reports how often something has happened, at most once a second.
 class EventCount {
  public:
-  // `total`: how often it has happened since start. True: `news` of it have not been told yet, and it is time.
+  // `total`: number of events since start. True if a report is due: `news` is the number of events not yet reported.
   [[nodiscard]] bool Tell(std::uint64_t total, base::Time now, std::uint64_t& news);
 
  private:
@@ -25,13 +25,14 @@ class EventCount {
 
 class EventLog {
  public:
-  // After a cycle: changes of mode, faults, refused engagements, refused frames, failed solves, missed deadlines.
+  // Logs the events of a cycle: changes of mode, faults, refused engagements, frames refused or lost, rejected obstacle
+  // lists, refused plans, unmet constraints, missed deadlines, missing states.
   void Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base::Time now);
-  // The kernel's count of frames lost because the receive buffer was full.
+  // `total`: frames that the kernel dropped because the receive buffer was full.
   void Dropped(std::uint64_t total, base::Time now);
-  // Frames not sent because the transmit queue was full.
+  // `total`: frames not sent because the transmit queue was full.
   void Unsent(std::uint64_t total, base::Time now);
-  // How quick the daemon has been since its start.
+  // Logs the latencies since start.
   static void Times(const base::Latencies& latencies);
 
  private:
@@ -46,7 +47,7 @@ class EventLog {
   base::Time last_constraint_{};
 };
 
-// Text of the present fault, with the message that ails, if one does.
+// Text of the present fault, with the faulty message if there is one.
 [[nodiscard]] std::string FaultText(const loop::CycleReport& report);
 
 }  // namespace lpvmpcd

@@ -21,10 +21,10 @@ namespace {
 
 LogFields fields_of_line;
 
-// What sinks of both kinds do: they write or drop, and count.
+// Common base of both sinks: a line is written, or dropped and counted.
 class Sink : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  protected:
-  // False if there is no room now.
+  // False if there is no room for the line now.
   virtual bool Write(spdlog::level::level_enum level, std::string_view line) = 0;
 
  private:
@@ -41,19 +41,19 @@ class Sink : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
   std::uint64_t dropped_ = 0;
 };
 
-// Asks first whether there is room: stderr must not be made non-blocking, it may be other processes' terminal.
+// Polls for room first: stderr must not be made non-blocking, because other processes may share the terminal.
 class StderrSink : public Sink {
   bool Write(spdlog::level::level_enum /*level*/, std::string_view line) override {
     pollfd item{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (::poll(&item, 1, 0) != 1 || (item.revents & POLLOUT) == 0) {
       return false;
     }
-    // There is room for PIPE_BUF at least, and a line is shorter.
+    // There is room for at least PIPE_BUF bytes, and a line is shorter.
     return ::write(STDERR_FILENO, line.data(), line.size()) >= 0;
   }
 };
 
-// By the journal's native protocol, a datagram for a line, rather than by sd_journal_send, which blocks while journald
+// Uses the journal's native protocol, one datagram per line, instead of sd_journal_send, which blocks while journald
 // does not read.
 class JournalSink : public Sink {
  public:
@@ -76,7 +76,7 @@ class JournalSink : public Sink {
                     reinterpret_cast<const sockaddr*>(&address), sizeof(address)) >= 0;
   }
 
-  // In the form that may have any byte in its value: name, newline, length in 64 bits, least first, value, newline.
+  // Binary-safe form of a field: name, newline, length as 64 bits little-endian, value, newline.
   void Add(std::string_view name, std::string_view value) {
     if (value.empty()) {
       return;

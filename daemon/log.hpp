@@ -1,6 +1,6 @@
-// Where the lines of the log go: to the journal if stderr is connected to it, otherwise to stderr. Neither makes the
-// control path wait: a line that a stalled reader has no room for is dropped, and the next one that gets through says how
-// many were.
+// The log goes to the journal if stderr is connected to it, otherwise to stderr. Neither makes the control path wait: a
+// line is dropped if its reader is stalled and has no room for it, and the number of dropped lines is logged as soon as
+// there is room again.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace lpvmpcd {
 
-// `level`: "debug", "info", "warning" or "error". A reader that goes away ends the log, not the daemon: SIGPIPE is
-// ignored.
+// `level`: "debug", "info", "warning" or "error". SIGPIPE is ignored: a reader that goes away ends the log, not the
+// daemon.
 void OpenLog(const std::string& level);
 void SetLogLevel(const std::string& level);
 
-// What is so while a line is written, as fields of the journal for `journalctl LPVMPCD_MODE=SafeStop` and the like. The
-// texts must stay where they are; an empty one is left out.
+// State at the time of a line, written as journal fields for queries such as `journalctl LPVMPCD_MODE=SafeStop`. The
+// texts must remain valid until they are replaced; an empty one is omitted.
 struct LogFields {
   std::string_view mode;   // LPVMPCD_MODE
   std::string_view fault;  // LPVMPCD_FAULT
@@ -22,7 +22,7 @@ struct LogFields {
 };
 void SetLogFields(const LogFields& fields);
 
-// True if this file descriptor is what JOURNAL_STREAM, DEVICE:INODE as in systemd.exec(5), tells.
+// True if `fd` is the file that JOURNAL_STREAM identifies (DEVICE:INODE, see systemd.exec(5)).
 [[nodiscard]] bool IsJournal(int fd, std::string_view journal_stream);
 
 }  // namespace lpvmpcd

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   std::optional<loop::Assembly> assembly;
   try {
     app.parse(argc, argv);
-    // Not CLI11's own check, which would hide an unknown option.
+    // CLI11's own check would hide an unknown option.
     if (file.empty()) throw std::runtime_error("--config is required");
     config = load();
     assembly.emplace(*config, base::MonotonicNow);

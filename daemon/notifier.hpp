@@ -1,4 +1,4 @@
-// Tells the service manager (systemd) how the daemon is. Without one, nothing happens.
+// Reports the daemon's state to the service manager (systemd). Without a service manager, nothing happens.
 #pragma once
 
 #include <string>
@@ -14,13 +14,13 @@ class Notifier {
   Notifier();
 
   void Ready();
-  // Before a reload; Ready ends it.
+  // Starts a reload; Ready ends it.
   void Reloading();
   void Stopping();
-  // The end of every status text from now on; empty for none.
+  // `remark` is appended to every status text from now on; empty for none.
   void SetRemark(std::string remark) { remark_ = std::move(remark); }
-  // Mode, fault and figures: at once when mode or fault change, otherwise once a second. And the watchdog's food, if it
-  // asks for it, from here alone: a daemon without cycles is to be restarted.
+  // Sends mode, fault and latencies, at once when mode or fault change, otherwise once a second. If the watchdog is
+  // enabled, only this call feeds it: a daemon without cycles is to be restarted.
   void Cycle(const loop::CycleReport& report, const base::Latencies& latencies, base::Time now);
 
  private:

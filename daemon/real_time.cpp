@@ -20,7 +20,7 @@ std::string ErrnoText() {
   return std::strerror(errno);
 }
 
-// Each CPU is asked for alone first: of a set the kernel takes those that exist and says nothing of the others.
+// Each CPU is requested alone first: given a set, the kernel silently ignores the CPUs that do not exist.
 void UseCpus(const std::vector<int>& cpus, RealTimeOutcome& outcome) {
   cpu_set_t granted;
   CPU_ZERO(&granted);
@@ -47,7 +47,7 @@ void UseCpus(const std::vector<int>& cpus, RealTimeOutcome& outcome) {
   }
 }
 
-// Touches the part of the stack that the control path will use, so that it is there, and locked, when it is used.
+// Touches the part of the stack that the control path will use, so that it is mapped and locked by then.
 [[gnu::noinline]] void TouchStack() {
   std::array<volatile char, kStack> stack;
   for (std::size_t i = 0; i < stack.size(); i += kPage) {
@@ -56,7 +56,7 @@ void UseCpus(const std::vector<int>& cpus, RealTimeOutcome& outcome) {
 }
 
 void LockMemory(RealTimeOutcome& outcome) {
-  // What was freed stays, and no block is given back by munmap: what has been used once costs no fault again.
+  // Freed memory is neither trimmed nor unmapped, so that memory used once does not fault again.
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
@@ -75,7 +75,7 @@ void LockMemory(RealTimeOutcome& outcome) {
 
 void UseFifo(int priority, RealTimeOutcome& outcome) {
   const sched_param parameter{.sched_priority = priority};
-  // Whatever the process might start has the usual scheduling.
+  // Child processes get the usual scheduling.
   if (::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameter) == 0) {
     outcome.granted.push_back(fmt::format("SCHED_FIFO {}", priority));
   } else {

@@ -1,5 +1,5 @@
-// What a process asks of the kernel so that its cycles are on time: priority over other processes, no page faults, CPUs
-// of its own. Each may be refused; the daemon then runs without it and says so.
+// Requests to the kernel that keep cycles on time: priority over other processes, no page faults, selected CPUs. Each
+// may be refused; the daemon then runs without it and logs the refusal.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@ namespace lpvmpcd {
 
 struct RealTimeOutcome {
   struct Refusal {
-    std::string what;  // with the value that was asked for
+    std::string what;  // with the requested value
     std::string why;
   };
   std::vector<std::string> granted;
   std::vector<Refusal> refused;
 };
 
-// Asks for what the settings say, for this thread: to be called by a process of one thread, once it has built all that
-// it needs. Locked memory counts against RLIMIT_MEMLOCK, as does what is allocated later, which then fails.
+// Applies the settings to this thread. A single-threaded process calls this once it has built everything it needs.
+// Locked memory counts against RLIMIT_MEMLOCK, and so do later allocations, which fail beyond the limit.
 [[nodiscard]] RealTimeOutcome ApplyRealTime(const loop::RealTimeSettings& settings);
 
 }  // namespace lpvmpcd

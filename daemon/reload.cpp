@@ -19,7 +19,7 @@ std::vector<std::string> ChangedKeys(const loop::Config& before, const loop::Con
   for (auto& [key, value] : differences) {
     keys.push_back(std::move(key));
   }
-  keys.erase(std::ranges::unique(keys).begin(), keys.end());  // a key whose value differs is there twice
+  keys.erase(std::ranges::unique(keys).begin(), keys.end());  // a key whose value differs occurs twice
   return keys;
 }
 
@@ -54,7 +54,7 @@ void Reloader::Reload() {
       return;
     }
     loop_->Reconfigure(next.loop);
-    // Before the level, which may hide it.
+    // Logged before the level is set, which may hide the line.
     spdlog::info("configuration reloaded: {}",
                  changed.empty() ? "nothing has changed" : fmt::format("{}", fmt::join(changed, ", ")));
     SetLogLevel(next.log_level);

@@ -1,8 +1,8 @@
-// SIGHUP: a running daemon reads its configuration again and takes all that was changed in it, or nothing. Which keys may
-// change and when: loop/config_tables.hpp.
+// On SIGHUP a running daemon reads its configuration again and applies either all changes or none.
+// loop/config_tables.hpp defines which keys may change and when.
 //
-// The text of a value decides: a key whose default value is written out counts as changed, and so does a key that is
-// deleted. Files that the configuration names (route, DBC) are not read again.
+// Values are compared as text: a key whose default value is added to the file counts as changed, and so does a deleted
+// key. Files that the configuration names (route, DBC) are not read again.
 #pragma once
 
 #include <functional>
@@ -15,20 +15,20 @@
 
 namespace lpvmpcd {
 
-// The keys whose values differ, one of them missing included, in alphabetical order.
+// The keys whose values differ or that only one configuration has, in alphabetical order.
 [[nodiscard]] std::vector<std::string> ChangedKeys(const loop::Config& before, const loop::Config& after);
 
-// Why the key cannot be changed now; empty if it can.
+// The reason why the key cannot be changed now; empty if it can.
 [[nodiscard]] std::string_view WhyNot(std::string_view key, bool commanding);
 
 class Reloader {
  public:
-  // `now`: what the daemon runs by. `load` reads it anew, with all that the command line overrides; it throws
-  // std::exception. `loop` must outlive the reloader.
+  // `now`: the configuration in use. `load` reads it again, including the overrides of the command line, and may throw
+  // a std::exception. `loop` must outlive the reloader.
   Reloader(loop::Config now, std::function<loop::Config()> load, loop::ControlLoop& loop);
 
-  // Logs one line: what was taken, or why nothing was. Reads files, which may cost the cycle that is under way its
-  // deadline, as any pause does.
+  // Logs one line: what was changed, or why nothing was. Reading the file may cost the present cycle its deadline, as
+  // any pause may.
   void Reload();
 
  private:

@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int kFramesAtOnce = 4096;  // more than a full receive buffer holds; then it is the timer's turn
+constexpr int kFramesAtOnce = 4096;  // more than a full receive buffer holds; afterwards the timer is served
 constexpr base::Time kRetryPeriod = 100ms;
 
 int BlockedSignals() {
@@ -101,7 +101,7 @@ void Service::Run() {
     if (ready(signals_.get()) && !ReactToSignals()) {
       break;
     }
-    // The socket before the timer: a state that has come in the meantime sets the timer anew.
+    // The socket is served before the timer: a state that has arrived in the meantime sets the timer again.
     if (ready(socket_.fd())) {
       ReadSocket();
     }
@@ -157,7 +157,7 @@ base::Time Service::Now() const {
   return settings_.lockstep ? cycles_ * settings_.period : base::MonotonicNow();
 }
 
-// Of the states that wait here, after a pause, only the newest is answered: to the others the command would be late.
+// If several states wait after a pause, only the newest is answered: commands for the others would be late.
 void Service::ReadSocket() {
   const base::Time before = base::MonotonicNow();
   bool complete = false;
@@ -201,7 +201,7 @@ void Service::ReactToEmptyQueue(can::ReceiveStatus status, base::Time before) {
 
 void Service::ReactToTimer() {
   if (settings_.lockstep && cycles_ == 0) {
-    Send(loop_->Announce());  // the vehicle waits for a sign of life before its first state
+    Send(loop_->Announce());  // the simulated vehicle waits for a status before it sends its first state
     timer_.Set(settings_.period);
   } else {
     RunCycle(loop::Trigger::kTimer);
@@ -241,7 +241,7 @@ void Service::Send(std::span<const can::Frame> frames) {
   }
 }
 
-// The last words matter most: a queue that is full for a moment must not swallow them.
+// The last commands matter most: they are retried while the queue is full.
 void Service::SendLastWords() {
   const auto wait = [] { std::this_thread::sleep_for(1ms); };
   if (!transmitter_.SendLast(loop_->Disable(), wait)) {
@@ -270,7 +270,7 @@ void Service::SetBus(BusState bus, const char* what) {
 
 void Service::Retry() {
   if (socket_.Reopen()) {
-    SetBus(BusState::kDown, "is back");  // up as soon as commands go out
+    SetBus(BusState::kDown, "is back");  // up as soon as commands are sent
   }
 }
 

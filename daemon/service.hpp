@@ -1,5 +1,4 @@
-// The shell about the control loop: waits for frames, the timer and signals, and has the only clocks of the
-// daemon.
+// The shell around the control loop: waits for frames, the timer and signals. All clocks of the daemon are read here.
 #pragma once
 
 #include <cstdint>
@@ -25,18 +24,19 @@ inline constexpr base::Time kLockstepTimeout = std::chrono::seconds(2);
 
 class Service {
  public:
-  // Opens the interface and blocks the signals that Run reacts to. Throws std::runtime_error: no such interface, one
-  // that is not virtual for lock step, or a system call failed. `loop` must outlive the service.
+  // Opens the interface and blocks the signals that Run handles. Throws std::runtime_error if the interface does not
+  // exist, if it is not virtual in lock step, or if a system call fails. `loop` must outlive the service.
   Service(const loop::ServiceSettings& settings, loop::ControlLoop& loop, std::function<void()> reload);
 
-  // Until SIGTERM or SIGINT; then a last pair of commands, not enabled, is sent. An interface that goes down or away
-  // is waited for. SIGUSR1 logs how quick the daemon has been, SIGHUP calls `reload`.
+  // Runs until SIGTERM or SIGINT, then sends a last pair of disabled commands. If the interface goes down or
+  // disappears, the service waits for it. SIGUSR1 logs the latencies, SIGHUP calls `reload`. Throws
+  // std::runtime_error if a system call fails.
   void Run();
 
  private:
   [[nodiscard]] base::Time Now() const;
   void BecomeRealTime();
-  [[nodiscard]] bool ReactToSignals();  // false: it is time to end
+  [[nodiscard]] bool ReactToSignals();  // false: the service is to stop
   void ReadSocket();
   void ReactToEmptyQueue(can::ReceiveStatus status, base::Time before);
   void ReactToTimer();
@@ -60,7 +60,7 @@ class Service {
   Transmitter transmitter_;
   BusState bus_ = BusState::kUp;
   base::Time last_empty_{};     // when the receive queue was last seen empty
-  base::Time state_arrival_{};  // of the newest complete state, by CLOCK_MONOTONIC even in lock step
+  base::Time state_arrival_{};  // of the newest complete state; CLOCK_MONOTONIC even in lock step
   base::Latencies latencies_;
   std::int64_t cycles_ = 0;
 };

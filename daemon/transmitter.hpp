@@ -1,4 +1,5 @@
-// Sends a cycle's frames, those that the gate lets through and no other, and tells from it how the bus is: up if our commands go out, and in no other case.
+// Sends a cycle's frames, only those that the gate allows, and derives the state of the bus from the result: only sent
+// commands bring the bus up.
 #pragma once
 
 #include <cstddef>
@@ -21,26 +22,26 @@ class Transmitter {
  public:
   using SendFrame = std::function<can::SendStatus(const can::Frame&)>;
 
-  // `gate` must outlive the transmitter. A frame that may not be sent counts as one that the bus refuses
-  // (kInvalidFrame). `clock` tells when commands have left.
+  // `gate` must outlive the transmitter. A frame that the gate does not allow counts as refused by the bus
+  // (kInvalidFrame). `clock` gives the time at which the commands were sent.
   Transmitter(const safety::CommandGate& gate, SendFrame send, std::function<base::Time()> clock)
       : gate_(&gate), send_(std::move(send)), clock_(std::move(clock)) {}
 
-  // In order, the pair of commands first; ends with the first frame that is not sent, so that neither an
-  // acceleration goes out without its steering nor a report in place of a command. A full queue that refuses
-  // commands three times in a row is a bus that is down; reports it may refuse.
+  // Sends the frames in order, the pair of commands first, and stops at the first one that cannot be sent: no
+  // acceleration is sent without its steering, and no report instead of a command. If a full queue refuses commands
+  // three times in a row, the bus is down; a full queue may refuse reports.
   BusState Send(std::span<const can::Frame> frames);
 
-  // Tries again while the queue is full, `wait` between two attempts, at most a hundred of them. False: not all
-  // were sent.
+  // Retries while the queue is full, with `wait` between attempts, at most 100 attempts. False if not all frames were
+  // sent.
   [[nodiscard]] bool SendLast(std::span<const can::Frame> frames, const std::function<void()>& wait);
 
   [[nodiscard]] BusState bus() const { return bus_; }
-  // When the pair of commands of the last Send had left, its reports still to follow; nothing if it did not leave.
+  // Time at which the last Send had sent its pair of commands, before its reports; nullopt if the pair was not sent.
   [[nodiscard]] std::optional<base::Time> commands_left() const { return commands_left_; }
-  // Of the last frame tried: the reason, if the bus is not up.
+  // Status of the last frame tried: the reason if the bus is not up.
   [[nodiscard]] can::SendStatus last_status() const { return status_; }
-  // Frames that a full queue refused, and those left unsent after them.
+  // Frames refused by a full queue in Send, and those left unsent after them.
   [[nodiscard]] std::uint64_t unsent() const { return unsent_; }
 
  private:
@@ -52,7 +53,7 @@ class Transmitter {
   BusState bus_ = BusState::kUp;
   can::SendStatus status_ = can::SendStatus::kSent;
   std::optional<base::Time> commands_left_;
-  int refused_in_a_row_ = 0;  // commands
+  int refused_in_a_row_ = 0;  // Send calls whose commands a full queue refused
   std::uint64_t unsent_ = 0;
 };
 

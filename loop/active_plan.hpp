@@ -1,5 +1,4 @@
-// The inputs of the last accepted plan, as long as they last: the answer to every step for which there is no newer
-// plan.
+// The inputs of the last accepted plan. They are used, as far as they reach, for every step without a newer plan.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@ class ActivePlan {
  public:
   explicit ActivePlan(int horizon) { u_.reserve(static_cast<std::size_t>(horizon)); }
 
-  // Made at `step`, which it answers with its first input. Does not allocate.
+  // `plan` was made at `step`, to which its first input applies. Does not allocate.
   void Take(const control::Plan& plan, std::int64_t step) {
     u_.assign(plan.u.begin(), plan.u.end());
     made_ = step;
@@ -23,13 +22,13 @@ class ActivePlan {
   void Drop() { u_.clear(); }
 
   [[nodiscard]] bool exists() const { return !u_.empty(); }
-  // Steps since it was made; meaningless without a plan.
+  // Steps since the plan was made; meaningless without a plan.
   [[nodiscard]] int Age(std::int64_t step) const { return static_cast<int>(step - made_); }
-  // There is an input for `step`.
+  // True if there is an input for `step`.
   [[nodiscard]] bool Covers(std::int64_t step) const {
     return step >= made_ && step - made_ < static_cast<std::int64_t>(u_.size());
   }
-  // Steps after `step` for which there is an input.
+  // Number of steps after `step` for which there is an input.
   [[nodiscard]] int Left(std::int64_t step) const {
     return Covers(step) ? static_cast<int>(u_.size()) - 1 - Age(step) : 0;
   }
@@ -37,7 +36,7 @@ class ActivePlan {
   [[nodiscard]] const control::Input& At(std::int64_t step) const {
     return u_[static_cast<std::size_t>(step - made_)];
   }
-  // The inputs from `step` on, none if it does not cover it.
+  // The inputs from `step` on; empty if the plan does not cover it.
   [[nodiscard]] std::span<const control::Input> From(std::int64_t step) const {
     if (!Covers(step)) return {};
     return std::span(u_).subspan(static_cast<std::size_t>(step - made_));

@@ -26,7 +26,7 @@ std::unique_ptr<control::Controller> MakeController(const Config& config, const 
     case ControllerKind::kNmpcAffine:
       break;
   }
-  // Ipopt allocates and has no bound on its time.
+  // Ipopt allocates memory and its run time is not bounded.
   throw std::runtime_error(
       std::string("controller ") + ControllerName(config.controller) +
       " is for lpvmpc alone: no daemon drives by it; take lpv-affine, lpv or lpv-standard");
@@ -54,7 +54,7 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route,
               .mu = config.affine.mu,
               .t_s = config.affine.t_s},
              profile_),
-      // The paper's controllers plan for a point with a coarser model: their plans would not pass.
+      // The paper's controllers plan for a point mass with a coarser model: their plans would not pass the check.
       loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch),
             IsPapers(config.controller) ? nullptr : &check_) {
   if (reference_.size() <= HorizonOf(config)) {

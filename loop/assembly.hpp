@@ -1,4 +1,4 @@
-// All that a configuration describes, put together: bus, route, controller and the control loop about them.
+// Builds what a configuration describes: bus, route, controller and the control loop around them.
 #pragma once
 
 #include <functional>
@@ -16,32 +16,32 @@
 
 namespace loop {
 
-// The bus of the configuration's DBC file, or the one built in. Throws as Assembly does.
+// The bus of the configuration's DBC file, or the built-in one. Throws like Assembly.
 [[nodiscard]] bus::VehicleBus OpenBus(const Config& config);
 
 // The route as the controllers need it.
 struct Road {
-  const control::TimeReference& by_time;    // of the paper's
-  const control::RoadProfile& by_progress;  // of the others
+  const control::TimeReference& by_time;    // for the paper's controllers
+  const control::RoadProfile& by_progress;  // for the others
 };
 
-// Makes the controller that a configuration names. What `road` refers to outlives it.
+// Makes the controller that a configuration selects. The objects behind `road` outlive it.
 using ControllerMaker = std::function<std::unique_ptr<control::Controller>(const Config&, const Road& road)>;
 
-// Of those that a daemon drives by. Throws std::runtime_error if it is none of them.
+// Makes one of the daemon's controllers. Throws std::runtime_error for an NMPC.
 [[nodiscard]] std::unique_ptr<control::Controller> MakeController(const Config& config, const Road& road);
 
 class Assembly {
  public:
-  // Throws std::runtime_error, one line: a file of the configuration is missing or wrong
-  // (config::ConfigError, dbc::DbcError with file and line), the route is shorter than a horizon, or the controller
-  // is none for a daemon.
+  // Throws std::runtime_error with a one-line text if a file of the configuration is missing or wrong
+  // (config::ConfigError, dbc::DbcError with file and line), if the route is not longer than the horizon, or if the
+  // controller is an NMPC.
   Assembly(const Config& config, std::function<base::Time()> stopwatch);
-  // With a route and a maker of the caller's; the controller's horizon must be the configuration's.
+  // Takes route and maker from the caller; the controller's horizon must be that of the configuration.
   Assembly(const Config& config, const config::RouteFile& route, std::function<base::Time()> stopwatch,
            const ControllerMaker& make);
 
-  Assembly(const Assembly&) = delete;  // the loop points into it
+  Assembly(const Assembly&) = delete;  // the loop points into this object
   Assembly& operator=(const Assembly&) = delete;
 
   [[nodiscard]] ControlLoop& loop() { return loop_; }

@@ -15,7 +15,7 @@ safety::LimitResult CommandSource::Command(bus::Mode mode, std::int64_t step, co
     return limiter_.Limit(plan.At(step), applied_, plan.Age(step));
   }
   if (mode == bus::Mode::kSafeStop) {
-    // The steering of the rest of the last plan, then along its path; never snapped to zero.
+    // First the steering of the rest of the last plan, then steering along its path; δ never jumps to zero.
     const double delta = plan.Covers(step) ? plan.At(step)[control::kDelta]
                                            : stop_.Steering(motion, stop_offset_, applied_[control::kDelta]);
     return limiter_.Limit({delta, -stop_deceleration_}, applied_, 0);

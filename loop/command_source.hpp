@@ -1,5 +1,5 @@
-// The command of a cycle, by mode: from the active plan, from the stop along the route, or what the vehicle does by itself;
-// always through the limiter. Keeps what was applied last.
+// The command of a cycle, depending on the mode: from the active plan, from the stop along the route, or the measured
+// inputs. It always passes the limiter. The last applied command is stored.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +17,26 @@ namespace loop {
 
 class CommandSource {
  public:
-  // `stop_deceleration` of SafeStop [m/s²].
+  // `stop_deceleration`: deceleration in SafeStop [m/s²].
   CommandSource(const safety::CommandLimits& limits, const control::PathStop& stop, double stop_deceleration)
       : limiter_(limits), stop_(stop), stop_deceleration_(stop_deceleration) {}
 
-  // While commands are not enabled, what the vehicle does by itself counts as applied.
+  // While commands are disabled, the measured inputs count as applied.
   void Observe(const VehicleState& state, bool commanding);
 
-  // For `step`, which the plan must cover if the mode drives. Without a command if the limiter refuses it.
+  // The command for `step`, which the plan must cover if the mode drives. No command if the limiter refuses it.
   [[nodiscard]] safety::LimitResult Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,
                                             const control::RouteMotion& motion,
                                             const VehicleState& state) const;
-  // What the vehicle does: sent while commands are not enabled, so that enabling them later is no jump.
+  // The measured inputs. They are sent while commands are disabled, so that enabling commands causes no jump.
   [[nodiscard]] safety::LimitResult Measured(const VehicleState& state) const;
 
-  // The stop along the route ends as far beside it as this plan does: N + 1 states that begin where the vehicle is.
+  // A later stop runs beside the route at the offset at which `plan` ends; its N + 1 states begin at the vehicle.
   void Follow(std::span<const control::State> plan, const control::RouteMotion& motion) {
     stop_offset_ = stop_.OffsetOf(plan, motion);
   }
 
-  // This command was sent, enabled.
+  // To be called with each command that is sent enabled.
   void Apply(const safety::LimitedCommand& command) { applied_ = command.u(); }
   [[nodiscard]] const control::Input& applied() const { return applied_; }
 
@@ -46,7 +46,7 @@ class CommandSource {
   safety::CommandLimiter limiter_;
   control::PathStop stop_;
   double stop_deceleration_;
-  double stop_offset_ = 0.0;  // of the path of the stop, left of the route [m]
+  double stop_offset_ = 0.0;  // of the stop's path, left of the route [m]
   control::Input applied_ = control::Input::Zero();
 };
 

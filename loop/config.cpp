@@ -19,17 +19,17 @@ constexpr std::array kControllerNames{"lpv-affine", "lpv", "lpv-standard", "nmpc
 
 void DeriveFromController(Config& config) {
   config.mpc.trust_region = config.controller == ControllerKind::kLpv;
-  // The paper's model divides by the speed, and its reference does not wait for a vehicle that is late.
+  // The paper's model divides by the speed, and its reference does not wait for a late vehicle.
   config.loop.engage_min_speed = config.engage_min_speed.value_or(IsPapers(config.controller) ? 3.0 : 0.0);
 }
 
-// In lock step the vehicle waits for its answers.
+// In lock step there is no deadline: the vehicle waits for the answers.
 void DeriveDeadline(Config& config) {
   const double deadline = config.deadline.value_or(base::ToSeconds(config.loop.period));
   config.loop.deadline = config.service.lockstep ? base::Time::max() : base::FromSeconds(deadline);
 }
 
-// What is set here follows from other members and has no key of its own.
+// Sets the members that follow from others and have no key.
 void Derive(Config& config) {
   const double t_s = base::ToSeconds(config.loop.period);
   config.service.period = config.loop.period;
@@ -50,7 +50,7 @@ void Derive(Config& config) {
   DeriveFromController(config);
 }
 
-// Throws config::ConfigError: values that are allowed one by one, and not together.
+// Throws config::ConfigError if values are allowed individually but not together.
 void RefuseContradictions(const TomlTable& root, const Config& config) {
   if ((config.mpc.z_min.array() >= config.mpc.z_max.array()).any()) {
     const TomlTable table = root.Table("controller");

@@ -32,7 +32,7 @@ void Read(const TomlTable& table, const std::string& name, const Bounds& bounds,
   }
 }
 
-// 1e12 and not 1e+12.
+// Writes 1e12 instead of 1e+12.
 std::string Text(double value) {
   std::string text = fmt::format("{:g}", value);
   const std::size_t exponent = text.find('e');

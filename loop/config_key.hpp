@@ -1,5 +1,5 @@
-// A key of the daemon's configuration file: how it is read, what the manual says of it, and when a running daemon may
-// take a change of it.
+// A key of the daemon's configuration file: how it is read, its description in the manual, and when a running daemon
+// may apply a change.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ enum class Reload : std::uint8_t {
   kAlways,
 };
 
-// Allowed values of a number, both ends included.
+// Range of allowed values of a number, both ends included.
 struct Bounds {
   double min = std::numeric_limits<double>::lowest();
   double max = std::numeric_limits<double>::max();
@@ -32,10 +32,10 @@ struct Bounds {
 
 struct ConfigKey {
   std::string name;
-  std::string default_value;  // as in the file, or the rule by which it follows from other keys
-  std::string allowed;        // values and unit, as the manual gives them; may be empty
-  std::string sentence;       // for the manual, without its full stop
-  // Reads the key, if it is in the table. Throws config::ConfigError.
+  std::string default_value;  // as written in the file, or the rule that derives it from other keys
+  std::string allowed;        // values and unit, as in the manual; may be empty
+  std::string sentence;       // for the manual, without the full stop
+  // Reads the key if it is in the table. Throws config::ConfigError if it is missing but required, or not allowed.
   std::function<void(const config::TomlTable& table, Config& config)> read;
   Reload reload = Reload::kNeedsRestart;
 };
@@ -60,12 +60,12 @@ void Read(const config::TomlTable& table, const std::string& name, const Bounds&
 
 }  // namespace key_detail
 
-// A key whose value is a member of Config: a number, a truth value, a time in seconds or a vector. `place` leads to it:
-// [](Config& c) { return &c.loop.limits.max_steering; }. The member's default is the key's.
+// A key whose value is a member of Config: a number, a boolean, a time in seconds or a vector. `place` returns its
+// address: [](Config& c) { return &c.loop.limits.max_steering; }. The member's default is the key's default.
 template <typename Place>
 ConfigKey Key(const std::string& name, Place place, const Bounds& bounds, const std::string& sentence,
               Reload reload = Reload::kNeedsRestart) {
-  // A vector is read and written by its numbers.
+  // A vector is handled as a span of its numbers.
   const auto value = [place](Config& config) -> decltype(auto) {
     if constexpr (requires { place(config)->data(); }) {
       return std::span<double>(place(config)->data(), static_cast<std::size_t>(place(config)->size()));
@@ -86,7 +86,7 @@ ConfigKey Key(const std::string& name, Place place, const Bounds& bounds, const 
           .reload = reload};
 }
 
-// A key whose number follows from other keys, by `rule`, where it is not given.
+// A key for a number or vector that is derived from other keys by `rule` if it is not given.
 template <typename Place>
 ConfigKey OptionalKey(const std::string& name, Place place, const Bounds& bounds, const std::string& rule,
                       const std::string& sentence, Reload reload = Reload::kNeedsRestart) {
@@ -108,7 +108,7 @@ ConfigKey OptionalKey(const std::string& name, Place place, const Bounds& bounds
       .reload = reload};
 }
 
-// A key that names one of `choices`; `set` takes the index.
+// A key whose value is one of `choices`; `set` takes the index.
 [[nodiscard]] ConfigKey ChoiceKey(const std::string& name, const std::vector<std::string>& choices,
                                   std::size_t default_choice,
                                   const std::function<void(Config&, std::size_t)>& set,

@@ -1,5 +1,5 @@
-// The tables and keys of the daemon's configuration file. The reading of the file, the manual page lpvmpcd.toml(5) and
-// what a running daemon may reload all follow from them.
+// The tables and keys of the daemon's configuration file. They determine how the file is read, the manual page
+// lpvmpcd.toml(5) and what a running daemon may reload.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace loop {
 
 struct ConfigTable {
   std::string name;
-  std::string remark;  // for the manual, one or more sentences; may be empty
+  std::string remark;  // sentences for the manual; may be empty
   std::vector<ConfigKey> keys;
 };
 
-// In the order in which they are read and described: a key whose bounds depend on another comes after it.
+// Tables in the order of reading and of the manual: a key whose bounds depend on another one comes after it.
 [[nodiscard]] std::vector<ConfigTable> ConfigTables();
 
-// When a running daemon may take a change of this key, "TABLE.NAME".
+// When a running daemon may apply a change of this key, "TABLE.NAME"; kNeedsRestart for an unknown key.
 [[nodiscard]] Reload ReloadOf(std::string_view key);
 
 }  // namespace loop

@@ -9,9 +9,9 @@ namespace {
 constexpr std::uint8_t kNoState = 15;
 constexpr int kNoPlanAge = 63;
 constexpr std::size_t kCommands = 2;
-constexpr std::size_t kReports = 5;  // status, health, diagnostics, constraint, header of the horizon
+constexpr std::size_t kReports = 5;  // status, health, diagnostics, constraint, horizon header
 
-// No command is older than the plan that it comes from can be.
+// A command cannot be older than the last input of its plan.
 LoopSettings WithinHorizon(LoopSettings settings, int horizon) {
   settings.limits.max_age = std::min(settings.limits.max_age, horizon - 1);
   return settings;
@@ -22,7 +22,7 @@ LoopSettings WithinHorizon(LoopSettings settings, int horizon) {
 ControlLoop::ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bus,
                          control::Controller& controller, const control::TimeReference& reference,
                          const control::RoadBounds& road, std::function<base::Time()> stopwatch,
-                         control::PlanCheck* check)
+                         const control::PlanCheck* check)
     : settings_(WithinHorizon(settings, controller.horizon())),
       inbox_(bus, settings.monitor, settings.period),
       tracker_({.vehicle = settings.vehicle,
@@ -62,14 +62,14 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   const safety::ModeState before = mode_;
   const bool commanding = bus::Commands(before.mode);
 
-  // 1. What is known now, and where on the road that is.
+  // 1. The snapshot of the inputs, and the vehicle's place on the route.
   const Snapshot known = inbox_.Take(now, trigger);
   commands_.Observe(known.state, commanding);
   const control::RoutePlace place = tracker_.Advance(known, commanding, commands_.applied());
   const control::RouteProgress progress = planner_.ProgressAt(place);
   safety::ModeInputs inputs = InputsOf(known, place, progress);
 
-  // 2. The plan: a new one from a new state; without one, or if it is late or refused, the active one goes on.
+  // 2. The plan: a new one from a new state; without one, or if it is late or refused, the active plan continues.
   const Outcome outcome =
       planner_.Plan(RequestOf(known, inputs), known, place, commanding, commands_.applied());
   if (outcome.accepted) commands_.Follow(outcome.solution->z, tracker_.motion());
@@ -77,7 +77,7 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   inputs.plan_usable = planner_.active().Covers(outcome.step);
   inputs.plan_left = planner_.active().Left(outcome.step);
 
-  // 3. The mode, 4. the command, through limiter and gate: what one of them refuses is never sent.
+  // 3. The mode. 4. The command, through limiter and gate: a command that one of them refuses is never sent.
   mode_ = safety::Next(before, inputs, settings_.modes);
   const safety::LimitResult limited = Issue(inputs, known, outcome);
   if (bus::Commands(mode_.mode)) {
@@ -86,7 +86,7 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
     planner_.Forget();
   }
 
-  // 5. The reports, after the commands, so that these are on the bus soonest.
+  // 5. The reports. They follow the commands, so that these are sent first.
   const CycleResult result{.known = known,
                            .place = place,
                            .progress = progress,
@@ -140,8 +140,8 @@ PlanRequest ControlLoop::RequestOf(const Snapshot& known, const safety::ModeInpu
   return possible ? PlanRequest::kNext : PlanRequest::kNoState;
 }
 
-// The command of the mode; if the limiter or the encoder refuses it, the mode becomes Fault and the vehicle's own inputs are
-// sent, not enabled.
+// Encodes the command of the mode. If limiter or encoder refuse it, the mode becomes Fault and the measured inputs are
+// encoded, disabled.
 safety::LimitResult ControlLoop::Issue(safety::ModeInputs& inputs, const Snapshot& known,
                                        const Outcome& outcome) {
   safety::LimitResult limited =

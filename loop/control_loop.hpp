@@ -1,12 +1,12 @@
-// The way of a frame, from the bus to the bus:
+// The control loop, from received to sent frames:
 //
 //   Receive   frame ─► Inbox: MessageMonitor ─► physical values ─► StateAssembler, ObstacleAssembler, driver's request
 //   Cycle     Snapshot ─► RoutePlace ─► Outcome of planning ─► mode ─► LimitedCommand ─► frames
 //             (Inbox)     (RouteTracker) (Planner)     (ModeMachine) (CommandSource)   (CommandGate, Reports)
 //
-// A cycle runs when the state set of a new counter is complete, and by a timer when none came in time. The
-// loop reads no clock, does no I/O and logs nothing; after construction it does not allocate. So the daemon
-// on a bus and a tool with the plant in memory run the very same loop.
+// A cycle runs when the state set of a new counter is complete, or on a timer if none came in time. The loop reads no
+// clock but the given stopwatch, does no I/O and logs nothing; after construction it does not allocate. The daemon on a
+// bus and a tool with the plant in memory therefore run the same loop.
 //
 //   ControlLoop loop(settings, bus, controller, reference, road, stopwatch);
 //   if (loop.Receive(frame, now)) {
@@ -41,49 +41,49 @@ namespace loop {
 
 struct LoopSettings {
   base::Time period =
-      std::chrono::milliseconds(50);  // t_s, of the bus, the reference and the controller alike
+      std::chrono::milliseconds(50);  // t_s of bus, reference and controller
   base::Time deadline =
-      std::chrono::milliseconds(50);  // age of a state at which an answer to it comes too late
+      std::chrono::milliseconds(50);  // age of a state beyond which an answer to it is late
   safety::MonitorSettings monitor;
   safety::CommandLimits limits;  // max_age is lowered to what the controller's horizon covers
   safety::ModeSettings modes;
   control::VehicleParameters vehicle;     // for the steering of SafeStop
-  double stop_deceleration = 3.0;         // of SafeStop [m/s²], 0.1..10
-  double standstill_speed = 0.3;          // below it the vehicle stands [m/s], 0..5
+  double stop_deceleration = 3.0;         // in SafeStop [m/s²], 0.1..10
+  double standstill_speed = 0.3;          // speed below which the vehicle stands [m/s], 0..5
   double engage_min_speed = 0.0;          // [m/s], 0..50
-  double engage_max_heading_error = 0.5;  // against the route [rad], 0..π
-  bool send_horizon = true;               // PlannedHorizon frames
+  double engage_max_heading_error = 0.5;  // relative to the route [rad], 0..π
+  bool send_horizon = true;               // whether PlannedHorizon frames are sent
   base::Time command_delay{};             // from a command to its effect
 };
 
 class ControlLoop {
  public:
-  // `stopwatch` tells a time of any start, for durations only. `bus`, `controller`, `reference` and `check` must
-  // outlive the loop. Without a check (null) a plan is followed if its figures are numbers. Throws std::runtime_error:
-  // the bus lacks a message.
+  // `stopwatch` returns the time since an arbitrary start, for durations only. `bus`, `controller`, `reference` and
+  // `check` must outlive the loop. Without a check (null) a plan is followed if its values are finite.
   ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bus, control::Controller& controller,
               const control::TimeReference& reference, const control::RoadBounds& road,
-              std::function<base::Time()> stopwatch, control::PlanCheck* check = nullptr);
+              std::function<base::Time()> stopwatch, const control::PlanCheck* check = nullptr);
 
-  // Takes a frame in. True: a state set is complete and a cycle is due.
+  // Processes a frame. True: a state set is complete and a cycle is due.
   [[nodiscard]] bool Receive(const can::Frame& frame, base::Time now);
 
-  // One control cycle. The frames to send, in this order: both commands, status, scheduling health, diagnostics, constraint, and
-  // with a new plan its horizon. They belong to the loop and stay until the next call. A state that has waited longer
-  // than the deadline, here or while its plan was made, gets no answer: the last plan goes on, from where it is now.
+  // Runs one control cycle and returns the frames to send, in this order: both commands, status, scheduling health,
+  // diagnostics, constraint, and with a new plan its horizon. They belong to the loop and are valid until the next
+  // call. A state that has waited longer than the deadline, before the cycle or while its plan was made, is not
+  // answered: the active plan continues at the step that is due by then.
   [[nodiscard]] std::span<const can::Frame> Cycle(base::Time now, Trigger trigger);
 
-  // A status alone, before the first cycle: somebody is here.
+  // Returns only a status frame, which shows before the first cycle that the daemon is running.
   [[nodiscard]] std::span<const can::Frame> Announce();
 
-  // Both commands once more, not enabled: the last words of a daemon that ends.
+  // Returns both commands, disabled: the last frames of a daemon that stops.
   [[nodiscard]] std::span<const can::Frame> Disable();
 
-  // What the cycle before took, from the arrival of its state to both commands sent; to be published in the next.
+  // Latency of the last cycle, from the arrival of its state to both commands sent; reported in the next cycle.
   void SetCycleLatency(base::Time latency) { reports_.SetCycleLatency(latency); }
 
-  // Takes over what of the settings can change while no commands are enabled: monitor, engagement, stop, and whether
-  // the horizon is sent.
+  // Applies the settings that can change while commands are disabled: monitor, engagement, modes, stop, and whether the
+  // horizon is sent. The others must be unchanged.
   void Reconfigure(const LoopSettings& settings);
 
   // False while the interface is down or gone.

@@ -6,7 +6,7 @@ namespace {
 const Bounds kNotNegative{0.0, 1e12, ""};
 const Bounds kPositive{1e-9, 1e12, ""};
 
-// The file gives the whole width.
+// The file has the full width, Config half of it.
 ConfigKey Width() {
   const Config defaults;
   return {.name = "width",

@@ -1,11 +1,11 @@
-// Those tables of the configuration file that concern the controllers and their model of the vehicle.
+// The tables of the configuration file for the controllers and their vehicle model.
 #pragma once
 
 #include "loop/config_tables.hpp"
 
 namespace loop {
 
-[[nodiscard]] ConfigTable ControllerTable();  // the choice, and the paper's controllers
+[[nodiscard]] ConfigTable ControllerTable();  // selection of a controller, and the paper's controllers
 [[nodiscard]] ConfigTable LpvAffineTable();
 [[nodiscard]] ConfigTable VehicleTable();
 

@@ -1,4 +1,4 @@
-// What happened in a control cycle, for the bus, the log and the service manager.
+// The report of a control cycle, for the bus, the log and the service manager.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +15,33 @@ namespace loop {
 
 struct CycleReport {
   bus::Mode mode = bus::Mode::kInit;
-  bus::Mode previous_mode = bus::Mode::kInit;   // another one: the mode changed in this cycle
+  bus::Mode previous_mode = bus::Mode::kInit;   // differs if the mode changed in this cycle
   safety::Cause cause = safety::Cause::kStart;  // of the present mode
   bus::FaultCode fault = bus::FaultCode::kNone;
   bus::SolverStatus solver = bus::SolverStatus::kNone;
   int iterations = 0;  // of the solver
   bool plan_accepted = false;
-  // What the plan of this cycle could not meet and by how much, or of an unsolved problem what stands most in its way.
+  // Constraint that the plan of this cycle could not meet, or the one that most obstructs an unsolved problem.
   std::optional<control::ConstraintViolation> relaxation = std::nullopt;
-  // What would go wrong with it. Of an accepted plan: no less, and no later, than with the last one.
+  // First violation that the check predicts for the plan. An accepted plan fails no earlier than the last one would.
   std::optional<control::ConstraintViolation> rejection = std::nullopt;
-  // The one of both that is told of: what the check found weighs more than what the plan says of itself.
+  // The violation to be reported: that of the check takes precedence over the plan's own.
   [[nodiscard]] const std::optional<control::ConstraintViolation>& unmet() const {
     return rejection ? rejection : relaxation;
   }
-  bool engagement_refused = false;  // the driver asked in this cycle and did not get it
+  bool engagement_refused = false;  // the driver's request of this cycle was not granted
   std::optional<safety::FaultyMessage> faulty_message = std::nullopt;
-  base::Time countdown = base::Time::max();  // until the vehicle is stopped, as things are; max: not driving
-  int plan_age = -1;                         // cycles, -1 without a plan
-  int route_index = -1;                      // point of the reference, -1 off the route
+  base::Time countdown = base::Time::max();  // until the stop begins if nothing changes; max: not driving
+  int plan_age = -1;                         // cycles; -1 without a plan or with commands disabled
+  int route_index = -1;                      // point of the reference; -1 off the route
   bool limited = false;                      // the limiter changed the command
   control::Input command = control::Input::Zero();
-  base::Time step_time{};      // by the stopwatch
-  base::Time cycle_latency{};  // of the last state that was answered: its arrival to both commands sent
+  base::Time step_time{};      // of the whole control step, by the stopwatch
+  base::Time cycle_latency{};  // of the last cycle started by a state: its arrival to both commands sent
   std::uint64_t cycles = 0;
   std::uint64_t deadline_misses = 0;
   std::uint64_t plans_refused = 0;                      // not solved, late, or not acceptable
-  bus::FaultCode last_refusal = bus::FaultCode::kNone;  // why the last of them was
+  bus::FaultCode last_refusal = bus::FaultCode::kNone;  // reason of the last one
 };
 
 }  // namespace loop

@@ -1,4 +1,4 @@
-// Where on the route a vehicle stands.
+// Finds a vehicle on the route.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace loop {
 
-// Index of the reference point beside the vehicle: the first one along the route that is nearest among its
-// neighbours, has the vehicle between the road's edges and not further ahead or behind than its neighbours
-// are, and differs from its heading by at most `max_heading_error` [rad]. Nothing if there is none. The first
-// one, so that a route that passes the same place again, a circuit, begins with its first lap.
+// Index of the reference point beside the vehicle: the first one along the route that is closer than its neighbours,
+// with the vehicle between the road's edges, no further ahead or behind than the next point is, and a heading that
+// differs by at most `max_heading_error` [rad]. nullopt if there is none. The first one is taken so that a circuit
+// begins with its first lap.
 [[nodiscard]] std::optional<int> FindOnRoute(const control::TimeReference& reference,
                                              const control::RoadBounds& road, const control::State& z,
                                              double max_heading_error);

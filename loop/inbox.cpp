@@ -7,7 +7,7 @@ namespace {
 
 using safety::RxMessage;
 
-// Cycles without a command on the bus, after which another node is assumed to drive.
+// Number of cycles without a sent command after which another node is assumed to drive.
 constexpr int kSilentPeriods = 40;
 
 }  // namespace
@@ -22,11 +22,11 @@ bool Inbox::Receive(const can::Frame& frame, base::Time now) {
     return false;
   }
   completed_ = now;
-  steps_.CountState(states_.state().counter);  // here, so that a set counts that no cycle answers
+  steps_.CountState(states_.state().counter);  // here, so that sets that no cycle answers count too
   return true;
 }
 
-// True: it completes a state set.
+// True if the message completes a state set.
 bool Inbox::TakeMessage(const safety::Accepted& accepted, base::Time now) {
   const bus::Message& message = accepted.message;
   if (const auto* pose = std::get_if<bus::VehiclePose>(&message)) {
@@ -45,7 +45,7 @@ bool Inbox::TakeMessage(const safety::Accepted& accepted, base::Time now) {
   } else if (const auto* velocity = std::get_if<bus::ObstacleMotion>(&message)) {
     obstacles_.Update(*velocity);
   } else if (const auto* list = std::get_if<bus::ObstacleList>(&message)) {
-    static_cast<void>(obstacles_.Update(*list, now));  // a list that does not fit lets the obstacles go stale
+    static_cast<void>(obstacles_.Update(*list, now));  // a rejected list lets the obstacles become stale
   } else if (const auto* request = std::get_if<bus::DriverRequest>(&message)) {
     override_seen_ = override_seen_ || request->brake || request->steering_override;
     released_ = released_ || !request->engage;

@@ -1,5 +1,5 @@
-// What comes from the bus: each frame is checked by the message monitor, its values go to the assembler that they belong to,
-// and a cycle takes a snapshot of all of it.
+// Input from the bus: the message monitor checks each frame, its values go to the assembler of their kind, and each
+// cycle takes a snapshot.
 //
 //   if (inbox.Receive(frame, now)) … = inbox.Take(now, Trigger::kState);
 #pragma once
@@ -20,45 +20,45 @@
 
 namespace loop {
 
-// What starts a cycle: a complete state set, or the timer because none came in time.
+// The trigger of a cycle: a complete state set, or the timer if none came in time.
 enum class Trigger : std::uint8_t { kState, kTimer };
 
-// All that is known at the start of a cycle.
+// The inputs known at the start of a cycle.
 struct Snapshot {
   base::Time now{};
-  base::Time waited{};    // since the state set that started the cycle was complete; 0 by the timer
-  std::int64_t step = 0;  // periods since the loop began, by the counter of the states and the timer together
+  base::Time waited{};    // since completion of the state set that started the cycle; 0 for the timer
+  std::int64_t step = 0;  // periods since the loop began, by state counter and timer (StepCounter)
 
   VehicleState state;
   bool state_new = false;  // a state set was completed for this cycle
   bool state_fresh = false;
-  bool state_rejected = false;  // one of its messages was refused of late
+  bool state_rejected = false;  // a frame of its messages was refused recently
 
-  std::span<const control::Obstacle> obstacles;  // belong to the inbox
+  std::span<const control::Obstacle> obstacles;  // owned by the inbox
   base::Time obstacle_age{};
   bool obstacles_fresh = false;
 
   bool request_fresh = false;
-  bool engage = false;         // as last requested
+  bool engage = false;         // the last request
   bool released = false;       // engage was seen false since the last cycle
   bool override_seen = false;  // brake or steering override since the last cycle
 
   bool bus_up = true;
-  bool silent = false;  // no cycle has found the bus up for so long that another node may drive
+  bool silent = false;  // the bus has not been up for so long that another node may drive
 
   std::optional<safety::FaultyMessage> faulty_message;
 };
 
 class Inbox {
  public:
-  // `period` of the state sets. `bus` must outlive the inbox.
+  // `period`: period of the state sets. `bus` must outlive the inbox.
   Inbox(const bus::VehicleBus& bus, const safety::MonitorSettings& settings, base::Time period);
 
   // True: a state set is complete and a cycle is due.
   [[nodiscard]] bool Receive(const can::Frame& frame, base::Time now);
 
-  // Counts the step if the timer starts the cycle. Events between two cycles (a touch of the brake, a released switch) are
-  // in exactly one snapshot.
+  // Counts the step if the timer starts the cycle. An event between two cycles (a touch of the brake, a released
+  // switch) appears in exactly one snapshot.
   [[nodiscard]] Snapshot Take(base::Time now, Trigger trigger);
 
   void Reconfigure(const safety::MonitorSettings& settings) { monitor_.Reconfigure(settings); }
@@ -82,7 +82,7 @@ class Inbox {
   bool override_seen_ = false;  // since the last cycle
   base::Time completed_{};      // when the last state set was complete
   bool bus_up_ = true;
-  base::Time last_up_{};  // the last cycle that found the bus up
+  base::Time last_up_{};  // time of the last cycle that found the bus up
 };
 
 }  // namespace loop

@@ -1,6 +1,5 @@
-// Gathers the three frames of each obstacle and takes over all obstacles of a cycle at once, when the list
-// that ends the cycle counts exactly the objects that were told in full. Otherwise the obstacles known before
-// stay.
+// Collects the three frames of each obstacle. The obstacles of a cycle are accepted together if all are complete and
+// the list that ends the cycle has their number. Otherwise the previous obstacles are kept.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +19,17 @@ class ObstacleAssembler {
 
   ObstacleAssembler();
 
-  // A part with a value that is not finite, or a semi-axis that is not positive, does not count: its object
-  // stays incomplete.
+  // A part with a non-finite value or a semi-axis that is not positive is ignored: its object remains incomplete.
   void Update(const bus::ObstaclePosition& position);
   void Update(const bus::ObstacleShape& shape);
   void Update(const bus::ObstacleMotion& motion);
-  // Ends a cycle. True: `obstacles()` are those told since the list before. False: a part was missing, or an
-  // object too many or too few; `obstacles()` are as they were.
+  // Ends a cycle. True: `obstacles()` are those received since the previous list. False: a part was missing, or the
+  // number of objects was wrong or above kMaxObstacles; `obstacles()` are unchanged.
   [[nodiscard]] bool Update(const bus::ObstacleList& list, base::Time time);
 
-  // In the order in which they were first told.
+  // In the order in which they were first received.
   [[nodiscard]] std::span<const control::Obstacle> obstacles() const { return committed_; }
-  // Time since the last list that was taken over; Time::max() before the first.
+  // Time since the last accepted list; Time::max() before the first.
   [[nodiscard]] base::Time Age(base::Time now) const { return known_ ? now - last_ : base::Time::max(); }
   [[nodiscard]] std::uint64_t rejected() const { return rejected_; }  // lists
 

@@ -6,7 +6,7 @@
 namespace loop {
 namespace {
 
-// Of a plan that was solved: every value of it is a number.
+// True if a solved plan has N = `horizon` steps and all its values are finite.
 bool Acceptable(const control::Plan& plan, int horizon) {
   const auto n = static_cast<std::size_t>(horizon);
   return plan.u.size() == n && plan.z.size() == n + 1 &&
@@ -36,12 +36,12 @@ bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
   return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
 }
 
-CheckVerdict CheckPlan(control::PlanCheck& check, const control::State& z,
+CheckVerdict CheckPlan(const control::PlanCheck& check, const control::State& z, double s,
                        std::span<const control::Input> plan, std::span<const control::Input> last,
                        std::span<const control::Obstacle> obstacles) {
-  CheckVerdict verdict{.violation = check.Judge(z, plan, obstacles), .ruled_out = false};
+  CheckVerdict verdict{.violation = check.Validate(z, s, plan, obstacles), .ruled_out = false};
   if (!verdict.violation) return verdict;
-  const auto of_last = check.Judge(z, last, obstacles);
+  const auto of_last = check.Validate(z, s, last, obstacles);
   verdict.ruled_out = !of_last || of_last->constraint.step > verdict.violation->constraint.step;
   return verdict;
 }

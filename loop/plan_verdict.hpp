@@ -1,4 +1,4 @@
-// Whether a plan may be followed, and how the bus is told.
+// Decides whether a plan may be followed, and maps the result to the bus's codes.
 #pragma once
 
 #include <optional>
@@ -11,25 +11,25 @@
 
 namespace loop {
 
-// How the bus names a solver's status, and the fault that it is.
+// A solver's status on the bus, and its fault code.
 struct SolverOutcome {
   bus::SolverStatus status = bus::SolverStatus::kSolved;
   bus::FaultCode fault = bus::FaultCode::kNone;
 };
 [[nodiscard]] SolverOutcome OnBus(control::SolverStatus status);
 
-// Why it may not: it was not solved, or is not a plan of N = `horizon` steps of which every value is a number. kNone: it
-// may.
+// Why a plan must not be followed: it was not solved, or it is not a plan of N = `horizon` steps with finite values.
+// kNone if it may be followed.
 [[nodiscard]] bus::FaultCode Refusal(const control::Plan& plan, int horizon);
 
-// What goes wrong with a plan from `z` among `obstacles`, and whether that rules it out. It does not if going on with the
-// last one goes wrong no later: then the new one, which knows better, is the lesser evil. `last`: its inputs from now on,
-// empty if there is none, which rules the new one out.
+// The first violation of a plan from `z` among `obstacles`, and whether it rules the plan out. It does not if the last
+// plan would fail no later: then the new plan, made from newer data, is the lesser evil. `last`: the inputs of the last
+// plan from now on; empty if there is none, in which case any violation rules out the new plan.
 struct CheckVerdict {
   std::optional<control::ConstraintViolation> violation;
   bool ruled_out = false;
 };
-[[nodiscard]] CheckVerdict CheckPlan(control::PlanCheck& check, const control::State& z,
+[[nodiscard]] CheckVerdict CheckPlan(const control::PlanCheck& check, const control::State& z, double s,
                                      std::span<const control::Input> plan,
                                      std::span<const control::Input> last,
                                      std::span<const control::Obstacle> obstacles);

@@ -8,9 +8,9 @@
 namespace loop {
 namespace {
 
-constexpr int kShareForIterations = 4;  // another iteration begins within the deadline's part of this many
+constexpr int kShareForIterations = 4;  // another iteration may begin within 1/4 of the deadline
 
-// Why there is no new plan in a cycle that should have one.
+// The reason why a cycle that should have a new plan has none.
 std::optional<safety::Cause> FaultOf(const Outcome& outcome, bool state_new) {
   using safety::Cause;
   if (outcome.accepted) return std::nullopt;
@@ -23,7 +23,7 @@ std::optional<safety::Cause> FaultOf(const Outcome& outcome, bool state_new) {
 }  // namespace
 
 Planner::Planner(const PlannerSettings& settings, control::Controller& controller,
-                 std::function<base::Time()> stopwatch, control::PlanCheck* check)
+                 std::function<base::Time()> stopwatch, const control::PlanCheck* check)
     : settings_(settings),
       controller_(&controller),
       stopwatch_(std::move(stopwatch)),
@@ -44,7 +44,6 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   Outcome outcome;
   if (request == PlanRequest::kFirst) {
     controller_->Reset();
-    if (check_ != nullptr) check_->Reset();
   }
   const bool due = request == PlanRequest::kFirst || request == PlanRequest::kNext;
   if (due && known.waited <= settings_.deadline) {
@@ -56,7 +55,7 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   outcome.late = age > settings_.deadline;
   outcome.step = known.step + (outcome.late ? age / settings_.period : 0);
   if (outcome.solution != nullptr) {
-    Accept(known, outcome);
+    Accept(known, place, outcome);
   }
   if (request != PlanRequest::kNone) {
     outcome.fault = FaultOf(outcome, known.state_new);
@@ -82,12 +81,12 @@ std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& 
   return std::nullopt;
 }
 
-void Planner::Accept(const Snapshot& known, Outcome& outcome) {
+void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, Outcome& outcome) {
   const control::Plan& plan = *outcome.solution;
   bus::FaultCode refusal =
       outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
   if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
-    const CheckVerdict verdict = CheckPlan(*check_, z_, plan.u, active_.From(known.step), obstacles_);
+    const CheckVerdict verdict = CheckPlan(*check_, z_, place.s, plan.u, active_.From(known.step), obstacles_);
     outcome.rejection = verdict.violation;
     if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
   }

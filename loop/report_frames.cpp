@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 127;
 
-// Codes of the bus: 0 is none.
+// Code on the bus: 0 for none, otherwise the enumerator plus 1.
 template <typename Enum>
 std::uint8_t CodeOf(const std::optional<Enum>& value) {
   return value ? static_cast<std::uint8_t>(static_cast<unsigned>(*value) + 1U) : std::uint8_t{0};
@@ -82,7 +82,7 @@ void AppendDiagnostics(const CycleReport& report, const safety::ModeState& mode,
 }
 
 void AppendConstraint(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames) {
-  // A plan that is followed all the same, as the lesser evil, gives way.
+  // A plan that is followed as the lesser evil is reported as relaxed.
   const bool rejected = report.rejection && !report.plan_accepted;
   const auto& violation = report.unmet();
   bus::ConstraintReport told;

@@ -1,4 +1,4 @@
-// The frames that tell about a cycle, appended to `frames`, each if its figures are numbers.
+// The report frames of a cycle, appended to `frames`. A frame with a non-finite value is omitted.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace loop {
 // ControllerStatus.
 void AppendStatus(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames);
 
-// SchedulingHealth of a control step; without one (null) its figures are 0.
+// SchedulingHealth of a control step; all values are 0 without one (null).
 void AppendHealth(const control::Plan* solve, safety::CommandGate& gate, std::vector<can::Frame>& frames);
 
 // ControllerDiagnostics.
 void AppendDiagnostics(const CycleReport& report, const safety::ModeState& mode, safety::CommandGate& gate,
                        std::vector<can::Frame>& frames);
 
-// ConstraintReport: of a rejected plan what would go wrong with it, else what could not be met.
+// ConstraintReport: the violation found by the check, otherwise the constraint that the plan could not meet.
 void AppendConstraint(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames);
 
-// PlannedHorizon, header and points (at most 127, as many as the bus counts), of a plan made for the state of this
-// counter.
+// PlannedHorizon: header and points of a plan made for the state with this counter. At most 127 points, the largest
+// number that the message can carry.
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, base::Time period,
                    safety::CommandGate& gate, std::vector<can::Frame>& frames);
 

@@ -18,7 +18,7 @@ bus::FaultCode FaultCodeOf(const CycleResult& result, bus::FaultCode last_refusa
   return result.inputs.route_left <= 0 ? bus::FaultCode::kRouteEnd : bus::FaultCode::kNone;
 }
 
-// The driver asked for it in this cycle.
+// True if the driver asked for engagement in this cycle and the mode is still Standby.
 bool EngagementRefused(const CycleResult& result) {
   const bool asked = result.before.mode == bus::Mode::kStandby && result.known.state_new &&
                      safety::RisingEdge(result.before, result.inputs);

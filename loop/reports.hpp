@@ -1,4 +1,5 @@
-// The report of a cycle, and the frames that carry it on the bus. It is written once a cycle and never read back by the loop.
+// The report of a cycle, and the frames that carry it on the bus. It is written once per cycle and never read back by
+// the loop.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace loop {
 
-// What a cycle came to.
+// The results of a cycle.
 struct CycleResult {
   const Snapshot& known;
   const control::RoutePlace& place;
@@ -25,7 +26,7 @@ struct CycleResult {
   const Outcome& outcome;
   const safety::LimitResult& limited;
   const safety::ModeState& mode;
-  const safety::ModeState& before;  // of the cycle before
+  const safety::ModeState& before;  // of the previous cycle
 };
 
 class Reports {
@@ -33,13 +34,13 @@ class Reports {
   explicit Reports(base::Time period) : period_(period) {}
 
   void Write(const CycleResult& result, const Planner& planner);
-  // The status alone: somebody is here.
+  // Appends only the status.
   void AppendStatus(safety::CommandGate& gate, std::vector<can::Frame>& frames) const;
-  // Status, scheduling health, diagnostics, constraint, and with a new plan its horizon.
+  // Appends status, scheduling health, diagnostics, constraint, and with a new plan its horizon if `send_horizon`.
   void AppendFrames(const CycleResult& result, bool send_horizon, safety::CommandGate& gate,
                     std::vector<can::Frame>& frames) const;
 
-  // From the arrival of the last answered state to both commands sent; published in the next cycle.
+  // Time from the arrival of the last cycle's state to both commands sent; reported in the next cycle.
   void SetCycleLatency(base::Time latency) { cycle_latency_ = latency; }
 
   [[nodiscard]] const CycleReport& report() const { return report_; }

@@ -29,12 +29,13 @@ control::RoutePlace RouteTracker::Advance(const Snapshot& known, bool commanding
     start_step_ = known.step - place.nearest;
     if (found) odometer_.Start(known.state.z, *found);
   }
+  place.s = reference_->ArcLength(place.nearest);
   place.due = known.step - start_step_;
   return place;
 }
 
 bool RouteTracker::Arrived(const Snapshot& known) const {
-  constexpr double kWithin = 2.0;  // of the last sample [m]
+  constexpr double kWithin = 2.0;  // distance from the last sample [m]
   const control::State& end = (*reference_)[reference_->size() - 1];
   return known.state_fresh && known.state.z[control::kUpsilon] < settings_.standstill_speed &&
          (known.state.z - end).head<2>().norm() < kWithin;

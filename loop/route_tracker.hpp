@@ -1,4 +1,4 @@
-// Where the vehicle is on the route: looked for while others drive, followed by an odometer while commands are enabled.
+// The vehicle's place on the route: searched for while commands are disabled, tracked by an odometer while enabled.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace loop {
 struct RouteTrackerSettings {
   control::VehicleParameters vehicle;
   double t_s = 0.05;               // [s]
-  double max_heading_error = 0.5;  // between vehicle and route, at engagement [rad], 0..π
-  double standstill_speed = 0.3;   // the vehicle stands below it [m/s]
+  double max_heading_error = 0.5;  // between vehicle and route at engagement [rad], 0..π
+  double standstill_speed = 0.3;   // speed below which the vehicle stands [m/s]
 };
 
 class RouteTracker {
@@ -25,12 +25,12 @@ class RouteTracker {
   RouteTracker(const RouteTrackerSettings& settings, const control::TimeReference& reference,
                const control::RoadBounds& road);
 
-  // Once a cycle. `commanding`: the mode enables commands; the vehicle then counts as on the route, beside the sample of the
-  // cycle before. `applied`: the last command.
+  // To be called once per cycle. `commanding`: commands are enabled; the vehicle then counts as on the route, beside
+  // the sample of the previous cycle. `applied`: the last command.
   [[nodiscard]] control::RoutePlace Advance(const Snapshot& known, bool commanding,
                                             const control::Input& applied);
 
-  // Of the vehicle in this cycle; meaningless off the route.
+  // The vehicle's motion in this cycle; meaningless off the route.
   [[nodiscard]] const control::RouteMotion& motion() const { return odometer_.motion(); }
 
   void Reconfigure(double max_heading_error, double standstill_speed);

@@ -1,4 +1,4 @@
-// Those tables of the configuration file that concern the daemon's surroundings: bus, route, time, log, processor.
+// The tables of the configuration file for the daemon's environment: bus, route, cycle, log, real time.
 #pragma once
 
 #include "loop/config_tables.hpp"

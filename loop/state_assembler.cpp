@@ -28,7 +28,7 @@ bool StateAssembler::Update(const bus::VehicleFeedback& feedback, std::uint8_t c
 }
 
 void StateAssembler::Begin(Part part, std::uint8_t counter, base::Time time) {
-  // The same part twice, or a part that comes late, is the counter come round again: a new set, too.
+  // A repeated or late part means that the counter has wrapped around: it begins a new set, too.
   const bool other = counter != next_.counter || (parts_ & part) != 0 || time - next_.timestamp > longest_;
   if (parts_ != 0 && other) {
     ++dropped_;

@@ -1,5 +1,5 @@
-// Which step of time it is: t_s goes by from one to the next. The timer counts roughly, the counter of the state
-// sets exactly but modulo 15; together they count exactly, however many sets are missing.
+// Counts time steps of length t_s. The timer counts roughly, the counter of the state sets exactly but modulo 15;
+// together they count exactly, however many sets are missing.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,9 @@ class StepCounter {
   // A cycle without a state.
   void CountTimer() { ++step_; }
 
-  // A cycle with a state set of this counter, 0..14: of all steps with that counter the one nearest to what the
-  // timer counted. If that one is over already, the vehicle counts anew, and the timer's count holds.
+  // A state set with this counter, 0..14: the step becomes the one with that counter nearest to the timer's count. If
+  // this is not after the last state's step, the vehicle has restarted its counter and the timer's count is kept (but
+  // at least the step after the last state's).
   void CountState(std::uint8_t counter);
 
   [[nodiscard]] std::int64_t step() const { return step_; }

@@ -1,4 +1,4 @@
-// A constraint that cannot be met, in words.
+// The text for a constraint that cannot be met.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// The only way onto the bus. The gate makes the daemon's frames: it takes a command from the limiter alone, which judged its
-// range, rate and age, enables it in the modes that command (mode_machine.hpp) and in no other, and protects it end to end.
-// The Transmitter asks the gate of every frame whether it may be sent.
+// The only way onto the bus. The gate builds the daemon's frames: it accepts commands only from the limiter, which has
+// checked range, rate and age, enables them only in the modes that command (bus::Commands), and adds the end-to-end
+// protection. The Transmitter asks the gate for each frame whether it may be sent.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace safety {
 
-// What a command answers.
+// The mode, state and plan behind a command.
 struct Answer {
   bus::Mode mode = bus::Mode::kInit;
-  std::uint8_t state_counter = 15;  // 15: answers no state set
-  std::uint8_t plan_age = 63;       // cycles; 63, which the frame has for anything above: or no plan
+  std::uint8_t state_counter = 15;  // of the answered state set; 15: none
+  std::uint8_t plan_age = 63;       // cycles; 63: 63 or more, or no plan
 };
 
-// What the daemon tells beside its commands. The horizon's header and points share a message.
+// Messages that the daemon sends besides its commands. The horizon's header and points share a message.
 template <typename Typed>
 concept Report =
     std::is_same_v<Typed, bus::ControllerStatus> || std::is_same_v<Typed, bus::SchedulingHealth> ||
@@ -33,19 +33,19 @@ class CommandGate {
   // `bus` must outlive the gate.
   explicit CommandGate(const bus::VehicleBus& bus);
 
-  // SteeringCommand and AccelerationCommand, in this order. False: nothing may be sent, a value could not be
-  // encoded.
+  // Encodes SteeringCommand and AccelerationCommand, in this order. False if a value could not be encoded: then nothing
+  // may be sent.
   [[nodiscard]] bool Encode(const LimitedCommand& command, const Answer& answer,
                             std::span<can::Frame, 2> out);
 
-  // A report. Every message has a counter of its own. False: as above.
+  // Encodes a report. Each message has its own counter. False as above.
   template <Report Typed>
   [[nodiscard]] bool Encode(const Typed& report, can::Frame& out) {
     return Encode(bus_->Info<Typed>().id, report, out);
   }
 
-  // True for the frames that this daemon may put on the bus: standard data frames of its own messages, with the right
-  // length and CRC.
+  // True for frames that this daemon may send: standard data frames of its own messages with valid length, CRC and
+  // counter.
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:
@@ -57,7 +57,7 @@ class CommandGate {
   [[nodiscard]] bool Encode(std::uint32_t id, const bus::Message& message, can::Frame& out);
 
   const bus::VehicleBus* bus_;
-  std::array<Sent, 7> sent_;  // by message, the commands first
+  std::array<Sent, 7> sent_;  // one per message, the commands first
 };
 
 }  // namespace safety

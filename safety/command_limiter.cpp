@@ -19,7 +19,7 @@ LimitResult CommandLimiter::Limit(const control::Input& wanted, const control::I
   if (age < 0 || age > limits_.max_age) return {.status = LimitStatus::kTooOld};
   LimitResult result;
   const CommandLimits& l = limits_;
-  // Rate about a value within range stays within range: both hold at the end.
+  // `applied` is clamped to the range first, so that limiting the rate cannot leave the range: both limits hold.
   const double delta_applied = std::clamp(applied[control::kDelta], -l.max_steering, l.max_steering);
   const double a_applied =
       std::clamp(applied[control::kAcceleration], l.min_acceleration, l.max_acceleration);

@@ -10,7 +10,7 @@ namespace {
 
 using bus::FaultCode;
 
-// In the order of the causes.
+// In the order of the enumerators.
 constexpr auto kCauses = std::to_array<CauseRow>({
     {Cause::kStart, "start", FaultCode::kNone, Severity::kEvent},
     {Cause::kInputsHealthy, "inputs healthy", FaultCode::kNone, Severity::kEvent},

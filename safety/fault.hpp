@@ -1,5 +1,5 @@
-// Why a mode is entered or a plan missing: one table, a row a cause, with its text, its fault code on the bus and how grave
-// it is. What logs, bus and mode machine say and do about a cause follows from its row.
+// Causes of a mode change or of a missing plan: one table with a row per cause, giving its text, its fault code on the
+// bus and its severity. Logs, bus and mode machine all use this row.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ using Cause = bus::ModeCause;
 
 enum class Severity : std::uint8_t {
   kEvent,  // no fault
-  kSoft,   // the vehicle drives on without for a while (Degraded)
-  kHard,   // the vehicle is stopped at once (SafeStop), or nothing is commanded any more (Fault)
+  kSoft,   // tolerated for a while: the vehicle drives on (Degraded)
+  kHard,   // the vehicle is stopped at once (SafeStop), or commands are disabled (Fault)
 };
 
 struct CauseRow {

@@ -1,4 +1,4 @@
-// Which of the received messages ails: does not come, or is refused for longer than it may be stale.
+// The first received message that is missing, or refused for longer than it stays fresh.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@ namespace safety {
 
 struct FaultyMessage {
   RxMessage message{};
-  std::optional<RxFault> reason;  // of its refusal; none: it does not come
+  std::optional<RxFault> reason;  // why it is refused; none: it is missing
 };
 
-// The first in the order of RxMessage. ObstacleObject may stay away: without obstacles there is none.
+// The first one in the order of RxMessage. A missing ObstacleObject is no fault: without obstacles none is sent.
 [[nodiscard]] std::optional<FaultyMessage> FindFaultyMessage(const MessageMonitor& monitor, base::Time now);
 
 }  // namespace safety

@@ -9,14 +9,14 @@
 namespace safety {
 namespace {
 
-// By RxMessage: the names in the DBC.
+// Names in the DBC, in the order of RxMessage.
 constexpr auto kMessageNames = std::to_array<std::string_view>(
     {bus::kFields<bus::VehiclePose>.message, bus::kFields<bus::VehicleMotion>.message,
      bus::kFields<bus::VehicleFeedback>.message, bus::kFields<bus::ObstaclePosition>.message,
      bus::kFields<bus::ObstacleList>.message, bus::kFields<bus::DriverRequest>.message});
 static_assert(kMessageNames.size() == kRxMessages);
 
-// By RxFault.
+// In the order of RxFault.
 constexpr auto kFaultNames = std::to_array<std::string_view>(
     {"unknown id", "wrong kind of frame", "wrong length", "wrong CRC", "invalid counter", "repeated counter",
      "counter jump", "invalid value", "value out of range"});
@@ -61,7 +61,7 @@ std::variant<Accepted, RxFault> MessageMonitor::Check(const can::Frame& frame, b
     return fault;
   };
   if (frame.kind == can::FrameKind::kError) {
-    return refuse(RxFault::kWrongKind);  // what it bears is no id
+    return refuse(RxFault::kWrongKind);  // its id field is not an id
   }
   const auto row =
       std::ranges::find_if(table_, [&frame](const Row& any) { return any.info->id == frame.id; });
@@ -88,7 +88,7 @@ std::optional<RxFault> MessageMonitor::Judge(Row& row, const can::Frame& frame, 
   if (check.verdict == bus::E2eVerdict::kWrongCrc) return RxFault::kWrongCrc;
   if (check.verdict != bus::E2eVerdict::kOk) return RxFault::kInvalidCounter;
 
-  // The first frame of a message follows any counter.
+  // The first frame of a message may have any counter.
   const std::optional<std::uint8_t> before = std::exchange(row.counter, check.counter);
   const int advance =
       before.has_value() ? (check.counter + dbc::kCounterModulus - *before) % dbc::kCounterModulus : 1;

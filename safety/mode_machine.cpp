@@ -5,7 +5,7 @@
 namespace safety {
 namespace {
 
-// What cannot be done without.
+// A fault that stops the vehicle at once.
 std::optional<Cause> HardFault(const ModeInputs& inputs) {
   const auto fault = InputFault(inputs);
   if (fault && IsHard(*fault)) return fault;

@@ -1,4 +1,4 @@
-// A hard constraint of a controller's problem by name, and by how much it cannot be met.
+// The name of a constraint in a controller's problem, and the amount by which it cannot be met.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ enum class ConstraintKind : std::uint8_t {
   kRate,      // |u_i − u_{i−1}|; index of the input
   kState,     // z_min ≤ z_i ≤ z_max; index of the state
   kRoad,      // road bounds at z_i
-  kObstacle,  // obstacle at z_i; its id
-  kFriction,  // acceleration at z_i; 0 across, 1 across and along
-  kTrust,     // trust region at z_i; index of the state, or of the input behind the states
+  kObstacle,  // obstacle at z_i; id of the obstacle
+  kFriction,  // acceleration at z_i; 0 lateral, 1 lateral and longitudinal
+  kTrust,     // trust region at z_i; index of the state, or kStates + index of the input
 };
 
 struct Constraint {
@@ -22,12 +22,12 @@ struct Constraint {
   int step = 0;  // i, 0..N
 };
 
-// A slack below this is the solver's inaccuracy.
+// A slack below this is attributed to the solver's inaccuracy.
 inline constexpr double kLeastRelaxation = 1e-3;
 
 struct ConstraintViolation {
   Constraint constraint;
-  // > 0, in the unit of the constrained quantity, [m] for road and obstacle. Amounts are compared whatever their units.
+  // > 0, in the unit of the constrained quantity, [m] for road and obstacle. Amounts are compared regardless of unit.
   double amount = 0.0;
 };
 

@@ -1,4 +1,4 @@
-// What every controller takes and gives.
+// The interface of every controller: its input, its plan, its control step.
 #pragma once
 
 #include <algorithm>
@@ -16,16 +16,16 @@
 namespace control {
 
 struct ControllerInput {
-  State z = State::Zero();           // measured, ψ in any turn
-  Input u_previous = Input::Zero();  // input last applied, against which the rate limits' first step is taken
+  State z = State::Zero();           // measured; ψ may include full turns
+  Input u_previous = Input::Zero();  // input applied last, from which the rate limits of the first step count
   RoutePlace place;
   std::span<const Obstacle> obstacles;
-  // Asked before an iteration that would improve the plan but is not needed, and within it: false ends it, and leaves the
-  // plan before it. None: there is time.
+  // Called before and within each iteration that could improve the plan but is not required. False ends that iteration
+  // and keeps the plan before it. Null: time is unlimited.
   const TimeLeft* time_left = nullptr;
 };
 
-// Of the state, the input last applied and the obstacles.
+// True if the state, the input applied last and all obstacles are finite.
 [[nodiscard]] inline bool IsFinite(const ControllerInput& input) {
   return input.z.allFinite() && input.u_previous.allFinite() &&
          std::ranges::all_of(input.obstacles, [](const Obstacle& o) {
@@ -34,35 +34,35 @@ struct ControllerInput {
          });
 }
 
-// The optimal trajectory of one step and what is to be known about how it came about.
+// The optimal trajectory of one step, with diagnostics of its computation.
 struct Plan {
   SolverStatus status = SolverStatus::kNumericalFailure;
   int iterations = 0;
-  std::vector<State> z;           // steps 0..N
-  std::vector<Input> u;           // steps 0..N-1; meaningful only if status == kSolved
-  double scheduling_error = 0.0;  // max_j |p_j − p̂_j| / e_j, realised against predicted in the previous step
-  int active_trust_rows = 0;      // trust-region constraints at their bound
-  double largest_slack = 0.0;     // in trust-region radii
-  ConstraintViolation relaxation;  // largest slack of another soft constraint; amount 0: none
+  std::vector<State> z;            // steps 0..N
+  std::vector<Input> u;            // steps 0..N-1; meaningful only if status == kSolved
+  double scheduling_error = 0.0;   // max_j |p_j − p̂_j| / e_j, p̂ as predicted in the previous step
+  int active_trust_rows = 0;       // number of trust-region constraints at their bound
+  double largest_slack = 0.0;      // in trust-region radii
+  ConstraintViolation relaxation;  // largest slack of any other soft constraint; amount 0: none
 };
 
 class Controller {
  public:
   virtual ~Controller() = default;
   [[nodiscard]] virtual int horizon() const = 0;  // N
-  // Where its reference begins for a vehicle there, and for how many steps it can plan.
+  // Where the reference begins for a vehicle at this place, and for how many steps the controller can plan.
   [[nodiscard]] virtual RouteProgress ProgressAt(const RoutePlace& place) const = 0;
-  // One control step. The plan belongs to the controller and stays until the next Step or Reset. Does not
-  // allocate, but for an NMPC's.
+  // Performs one control step. The plan belongs to the controller and is valid until the next Step or Reset. Only an
+  // NMPC allocates here.
   [[nodiscard]] virtual const Plan& Step(const ControllerInput& input) = 0;
   // Forgets the last plan: the next step schedules from the measured state alone.
   virtual void Reset() = 0;
-  // After a step that was not solved: which hard constraint stands most in the way, and by how much. None where that
-  // is not known. It solves, and does not allocate, but for an NMPC's.
+  // After a step that was not solved: the hard constraint that needs the largest relaxation, and the amount; nullopt if
+  // that is not known. This may solve another problem; only an NMPC allocates here.
   [[nodiscard]] virtual std::optional<ConstraintViolation> DiagnoseInfeasibility() const {
     return std::nullopt;
   }
-  // Shows from now on every quadratic problem of a step before it is solved. False if the controller solves none.
+  // From now on, shows the observer every QP of a step before it is solved. False if the controller solves no QPs.
   [[nodiscard]] virtual bool SetQpObserver(const QpObserver& /*observer*/) { return false; }
 };
 

@@ -39,13 +39,13 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   plan_.active_trust_rows = 0;
   plan_.largest_slack = 0.0;
   plan_.relaxation = {};
-  // A non-finite input would corrupt the stored place and passing decisions for good.
+  // A non-finite input would corrupt the stored passing decisions for good.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
     prediction_.Shift();
     return plan_;
   }
-  task_.Begin(input.z, input.obstacles);
+  task_.Begin(input.z, input.place.s, input.obstacles);
   CompareScheduling();
   if (task_.waiting()) {
     task_.Hold(input.u_previous, plan_.z, plan_.u);
@@ -64,7 +64,7 @@ void LpvAffineMpc::CompareScheduling() {
   if (settings_.adapt_trust_region) trust_region_.Adapt(plan_.scheduling_error);
 }
 
-// Solves QPs, each about the plan of the one before. One that fails leaves the plan before it.
+// Solves QPs, each about the plan of the one before. If one fails, the plan before it is kept.
 void LpvAffineMpc::Solve(const ControllerInput& input) {
   const int least = prediction_.exists() ? 1 : settings_.first_iterations;
   const int most = std::max(least, settings_.iterations);
@@ -76,7 +76,7 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   for (int k = 0; k < most; ++k) {
     const TimeLeft* time_left = k < least ? nullptr : input.time_left;
     if (time_left != nullptr && !(*time_left)()) break;
-    // An obstacle for which the problem has no room must not be ignored.
+    // An obstacle for which the problem has no room must not be ignored: no plan is made.
     const bool built = BuildQp(input.u_previous);
     if (built && qp_observer_) qp_observer_(qp_);
     const QpResult result =
@@ -130,7 +130,7 @@ bool LpvAffineMpc::BuildQp(const Input& u_previous) {
   return bounded && rows_.fits();
 }
 
-// Returns the largest change of a scheduling variable, in radii.
+// Reads plan_ from the solution. Returns the largest change of a scheduling variable, in radii.
 double LpvAffineMpc::ReadPlan() {
   const auto& stages = solver_.solution().stages;
   plan_.z[0] = task_.z();

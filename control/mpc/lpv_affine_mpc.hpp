@@ -1,19 +1,21 @@
-// The LPVMPC with the model that is first-order exact: the paper's scheduling by the last plan (eq:LPV_MPC,
-// alg:LPVMPC) and its trust region, but about the predicted trajectory (ẑ, û)
+// The LPVMPC with a model that is exact to first order: the paper's scheduling by the last plan (eq:LPV_MPC,
+// alg:LPVMPC) and its trust region, but expanded about the predicted trajectory (ẑ, û):
 //
-//   z_{i+1} = F(ẑ_i, û_i) + A_i (z_i − ẑ_i) + B_i (u_i − û_i)        A = ∂F/∂z, B = ∂F/∂u   (affine_model.hpp)
+//   z_{i+1} = F(ẑ_i, û_i) + A_i (z_i − ẑ_i) + B_i (u_i − û_i)        A = ∂F/∂z, B = ∂F/∂u
 //
-// so that a change of heading moves the vehicle inside the QP, too, and one QP is one iteration of sequential quadratic
-// programming. It knows the course itself and needs no reference window: progress_reference.hpp.
+// with F of control/vehicle/discrete_model.hpp. So a change of heading moves the vehicle inside the QP, too, and one QP
+// is one iteration of sequential quadratic programming. The controller knows the course itself and needs no reference
+// window (control/road/progress_reference.hpp).
 //
 //   min   Σ |z_i − z_ref_i|²_Q + |u_i − u_ref_i|²_R + |Δu_i|²_R_rate + penalties
 //   hard  |Δu_i| ≤ rate_max, u_min ≤ u_i ≤ u_max
 //   soft  0 ≤ υ ≤ υ_max;   road and obstacles with the vehicle's footprint;
-//         |υω| ≤ r, |υω ± a| ≤ √2 r: an octagon about the friction circle of radius r, but for the bounds of a itself;
+//         |υω| ≤ r, |υω ± a| ≤ √2 r: an octagon about the friction circle of radius r, without its sides |a| ≤ r, which
+//         the bounds of a replace;
 //         |p_i − p̂_i| ≤ e for p = [υ ν ψ δ]: the trust region
 //
-// Q, R are weights of deviations from the reference (reference input δ_ref, a_ref included). The QP's state is
-// x = [z − z_ref; u_{k−1} − u_ref], its input Δu: every bound of an input is then one of a single variable.
+// Q, R weigh deviations from the reference, which includes the inputs δ_ref, a_ref. The QP's state is
+// x = [z − z_ref; u_{k−1} − u_ref] and its input is Δu, so that every bound of an input is one of a single variable.
 #pragma once
 
 #include <span>
@@ -34,7 +36,7 @@ namespace control {
 
 class LpvAffineMpc final : public Controller {
  public:
-  // `course` must outlive it.
+  // `course` must outlive the controller.
   LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& course,
                const LpvAffineSettings& settings);
 
@@ -46,7 +48,7 @@ class LpvAffineMpc final : public Controller {
   void Reset() override;
   [[nodiscard]] bool SetQpObserver(const QpObserver& observer) override;
 
-  // The QP of the last step, and its reference: for recording and for tests.
+  // The QP of the last step and its reference, for recording and for tests.
   [[nodiscard]] const VehicleQp& qp() const { return qp_; }
   [[nodiscard]] std::span<const State> reference() const { return task_.reference(); }
   [[nodiscard]] std::span<const Input> reference_input() const { return task_.reference_input(); }
@@ -74,7 +76,7 @@ class LpvAffineMpc final : public Controller {
 
   Prediction prediction_;
   TrustRegion trust_region_;
-  bool has_warm_start_ = false;  // the last QP's solution, shifted if that was the last step's
+  bool has_warm_start_ = false;  // warm_start_ holds the last QP's solution; Step leaves it shifted
 };
 
 }  // namespace control

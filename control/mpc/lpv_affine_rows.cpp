@@ -1,4 +1,4 @@
-// The rows of LpvAffineMpc's QP, each to first order about (ẑ, û) and in deviations from the reference.
+// The rows of LpvAffineMpc's QP, linearised about (ẑ, û) and written in deviations from the reference.
 #include <algorithm>
 #include <numbers>
 
@@ -14,7 +14,7 @@ void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
       rows_.AddInputBound({.kind = ConstraintKind::kRate, .index = j, .step = i}, j, -step, step);
     }
     if (i == 0) continue;
-    // An input that is out of range comes back as fast as its rate allows.
+    // An input that is out of range returns as fast as its rate allows.
     const double lo = std::min(settings_.u_min[j], u_previous[j] + i * step);
     const double hi = std::max(settings_.u_max[j], u_previous[j] - i * step);
     const double u_ref = task_.reference_input()[Index(i - 1)][j];
@@ -23,7 +23,7 @@ void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
   }
 }
 
-// υω ≈ υ̂ω + ω̂(υ − υ̂).
+// The lateral acceleration is linearised: υω ≈ υ̂ω + ω̂(υ − υ̂).
 void LpvAffineMpc::AddFrictionRows(int i) {
   const State& z_ref = task_.reference()[Index(i)];
   const State& z_hat = prediction_.z()[Index(i)];
@@ -44,7 +44,7 @@ void LpvAffineMpc::AddFrictionRows(int i) {
   }
 }
 
-// The position of a point of the body, to first order in ψ.
+// The position of a point of the body is linearised in ψ.
 void LpvAffineMpc::AddBodyRows(int i) {
   const State& z_hat = prediction_.z()[Index(i)];
   const State& z_ref = task_.reference()[Index(i)];

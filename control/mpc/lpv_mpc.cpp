@@ -78,8 +78,9 @@ void LpvMpc::BuildQp(const TrackingInput& input) {
   }
 }
 
-// The order is the same in every stage before N, so that multipliers can be handed on from one to the next: inputs,
-// states, road, trust region of the states, obstacles. (Stage 0 has only the first of them.)
+// The order of rows is the same in every stage before N, so that multipliers can be passed from one stage to another:
+// inputs, trust region of the steering angle, states, road, trust region of the states, obstacles. (Stage 0 has only
+// the first two.)
 void LpvMpc::AddRows(const TrackingInput& input, int i) {
   const bool bounded = settings_.trust_region && prediction_.exists() && i < settings_.horizon;
   if (i < settings_.horizon) AddInputRows(i);
@@ -89,7 +90,7 @@ void LpvMpc::AddRows(const TrackingInput& input, int i) {
     if (bounded) AddStateTrust(input.reference[Index(i)], i);
     AddObstacleRows(input, i);
   }
-  // An obstacle for which there is no room must not be ignored: a row that cannot hold makes the problem infeasible.
+  // An obstacle for which there is no room must not be ignored: an unsatisfiable row makes the problem infeasible.
   if (!rows_.fits())
     qp_.stages[Index(i)].rows.back() = {.C = QpState::Zero(), .D = Input::Zero(), .lo = 1.0, .hi = kNoBound};
 }
@@ -150,7 +151,7 @@ void LpvMpc::AddObstacleRows(const TrackingInput& input, int i) {
 }
 
 std::optional<ConstraintViolation> LpvMpc::DiagnoseInfeasibility() const {
-  constexpr double kPenalty = 1e6;  // against costs of about 1 to 100: all but the least violation
+  constexpr double kPenalty = 1e6;  // other costs are about 1 to 100: the violation is almost the least
   const auto holds_state = [](const Constraint& constraint) {
     return constraint.kind == ConstraintKind::kState || constraint.kind == ConstraintKind::kRoad ||
            constraint.kind == ConstraintKind::kObstacle;
@@ -190,7 +191,7 @@ void LpvMpc::ReadPlan(const TrackingInput& input) {
   (void)trust_region_.Measure(prediction_, last, last, bounded, plan_);
 }
 
-// ẑ_{i|k+1} = z*_{i+1|k}, û likewise (paper, eq:sch_pred). Without a plan the last prediction moves on by one step.
+// ẑ_{i|k+1} = z*_{i+1|k}, û likewise (paper, eq:sch_pred). Without a plan the last prediction is shifted.
 void LpvMpc::PredictNext() {
   if (plan_.status == SolverStatus::kSolved) prediction_.Set(plan_);
   prediction_.Shift();

@@ -1,8 +1,8 @@
 // The LPVMPC of the paper (eq:LPV_MPC, alg:LPVMPC): a QP whose model A(p̂), B(p̂) is scheduled by the last
-// plan, with the scheduling trust region or without it ("standard"), obstacle half-spaces and road bounds.
+// plan, with or without ("standard") the scheduling trust region, with obstacle half-spaces and road bounds.
 //
 // The QP's state is x = [z − z_ref; u_{k−1}]: deviations keep the digits that positions of hundreds of metres
-// would cost, and the input last applied makes the rate limits rows of a stage.
+// would cost, and with the previous input in the state the rate limits are rows of a single stage.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@
 
 namespace control {
 
-// The trust region, whose size the paper leaves open, is as tried.
+// The paper leaves the trust region's size open; the values here are the result of trials.
 struct LpvMpcSettings : MpcSettings {
   Discretisation discretisation = Discretisation::kEuler;
 
@@ -37,7 +37,7 @@ class LpvMpc final : public TrackingController {
   [[nodiscard]] int horizon() const override { return settings_.horizon; }
   [[nodiscard]] const Plan& Step(const TrackingInput& input) override;
   void Reset() override;
-  // The row that needs the largest slack if the rows that bound states, road and obstacles are made soft.
+  // Returns the row that needs the largest slack if all rows of states, road and obstacles are made soft.
   [[nodiscard]] std::optional<ConstraintViolation> DiagnoseInfeasibility() const override;
   [[nodiscard]] bool SetQpObserver(const QpObserver& observer) override;
 
@@ -60,7 +60,7 @@ class LpvMpc final : public TrackingController {
   VehicleQp qp_;
   RowWriter rows_;
   VehicleQpSolver solver_;
-  // Work space of DiagnoseInfeasibility, which must not allocate it in a control cycle.
+  // Work space of DiagnoseInfeasibility, kept because nothing may be allocated in a control cycle.
   mutable VehicleQp elastic_;
   mutable VehicleQpSolver elastic_solver_;
   VehicleQpPoint warm_start_;
@@ -68,7 +68,7 @@ class LpvMpc final : public TrackingController {
   QpObserver qp_observer_;
   Prediction prediction_;
   TrustRegion trust_region_;
-  bool has_warm_start_ = false;  // warm_start_ holds the last step's solution, shifted
+  bool has_warm_start_ = false;  // warm_start_ holds the shifted solution of the last step
 };
 
 }  // namespace control

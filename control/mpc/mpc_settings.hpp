@@ -1,5 +1,5 @@
 // The optimal control problem that the paper's controllers share (eq:nonlinear_MPC, eq:LPV_MPC): horizon, weights and
-// bounds. Defaults: the paper's tables and text.
+// bounds. The defaults are those of the paper's tables and text.
 #pragma once
 
 #include <numbers>
@@ -17,14 +17,14 @@ struct MpcSettings {
   State P{10.0, 10.0, 1.0, 1.0, 10.0, 1.0};
   Input R{0.1, 0.1};
 
-  // Bounds (tab:MPCPar); that on ψ is taken relative to the reference.
+  // Bounds (tab:MPCPar); the bound on ψ is relative to the reference.
   State z_min{-1.0, -600.0, 1.0, -10.0, -std::numbers::pi, -std::numbers::pi / (3.0 * 0.05)};
   State z_max{1500.0, 800.0, 100.0, 10.0, std::numbers::pi, std::numbers::pi / (3.0 * 0.05)};
   Input u_min{-34.0 * std::numbers::pi / 180.0, -6.0};
   Input u_max{34.0 * std::numbers::pi / 180.0, 2.0};
   Input rate_max{25.0 * std::numbers::pi / 180.0, 1.5};  // per step
 
-  double obstacle_margin = 0.1;  // [m] by which obstacles are enlarged
+  double obstacle_margin = 0.1;  // by which obstacles are enlarged [m]
 };
 
 }  // namespace control

@@ -15,13 +15,13 @@ using Eigen::Vector2d;
 
 constexpr double kRoadTolerance = 0.02;  // [m]
 constexpr double kGripTolerance = 0.3;   // [m/s²]
-constexpr double kSmallest = 1e-3;       // semi-axis of an obstacle [m]
+constexpr double kSmallest = 1e-3;       // least semi-axis of an obstacle [m]
 
 Vector2d CornerAt(const State& z, const Vector2d& corner) {
   return Position(z) + Rotate(z[kPsi], corner);
 }
 
-// Least distance of the origin to the segment from a to b.
+// The distance from the origin to the segment from a to b.
 double DistanceToSegment(const Vector2d& a, const Vector2d& b) {
   const Vector2d d = b - a;
   const double squared = d.squaredNorm();
@@ -38,7 +38,7 @@ double Cross(const Vector2d& a, const Vector2d& b) {
 PlanCheck::PlanCheck(const PlanCheckSettings& settings, const RoadProfile& course)
     : settings_(settings), model_(BlendedModel(settings.vehicle), settings.t_s), course_(&course) {}
 
-// How far the corner that is furthest out is off the road; negative: all are on it. `s` follows the vehicle.
+// The distance of the outermost corner beyond the road's edge [m]; negative if all corners are on it. Updates `s`.
 double PlanCheck::OffRoad(const State& z, double& s) const {
   s = course_->Project(Position(z), s).s;
   double out = -std::numeric_limits<double>::infinity();
@@ -54,8 +54,8 @@ double PlanCheck::BeyondGrip(const State& z, const Input& u) const {
   return std::hypot(across, u[kAcceleration]) - settings_.mu * kGravity;
 }
 
-// In the obstacle's axes, scaled by its semi-axes, it is the unit circle and the rectangle a parallelogram. Returns the
-// overlap, scaled back by the smaller semi-axis; negative if they are apart.
+// In the obstacle's axes, scaled by its semi-axes, the obstacle is the unit circle and the rectangle a parallelogram.
+// Returns their overlap, scaled back by the smaller semi-axis [m]; negative if they are apart.
 double PlanCheck::Touched(const State& z, const Obstacle& obstacle) const {
   std::array<Vector2d, 4> corners = settings_.footprint.Corners();
   const Eigen::Rotation2Dd to_axes(-obstacle.heading);
@@ -68,16 +68,14 @@ double PlanCheck::Touched(const State& z, const Obstacle& obstacle) const {
     const Vector2d& a = corners[k];
     const Vector2d& b = corners[(k + 1) % corners.size()];
     nearest = std::min(nearest, DistanceToSegment(a, b));
-    inside = inside && Cross(b - a, -a) <= 0.0;  // the corners go round clockwise
+    inside = inside && Cross(b - a, -a) <= 0.0;  // the corners are in clockwise order
   }
   return (inside ? 1.0 + nearest : 1.0 - nearest) * axes.minCoeff();
 }
 
-std::optional<ConstraintViolation> PlanCheck::Judge(const State& z, std::span<const Input> u,
-                                                    std::span<const Obstacle> obstacles) {
+std::optional<ConstraintViolation> PlanCheck::Validate(const State& z, double s, std::span<const Input> u,
+                                                       std::span<const Obstacle> obstacles) const {
   State now = z;
-  s_ = (s_ ? course_->Project(Position(z), *s_) : course_->Find(Position(z), z[kPsi])).s;
-  double s = *s_;
   const double off_road = std::max(OffRoad(now, s), 0.0) + kRoadTolerance;
   const double grip = std::max(BeyondGrip(now, Input::Zero()), 0.0) + kGripTolerance;
   for (std::size_t i = 0; i < u.size(); ++i) {

@@ -1,5 +1,5 @@
-// The last look at a plan before it is followed: its inputs are driven through the nonlinear model, and the vehicle's
-// whole rectangle is held against obstacles, road and friction. No margins: what fails here would happen.
+// The last check of a plan before it is followed: its inputs are simulated with the nonlinear model, and the vehicle's
+// whole rectangle is compared with obstacles, road and friction, without margins: a failure here would be a real one.
 #pragma once
 
 #include <optional>
@@ -18,23 +18,22 @@ namespace control {
 struct PlanCheckSettings {
   VehicleParameters vehicle;
   Footprint footprint;
-  double mu = 0.7;    // friction coefficient that is reckoned with
+  double mu = 0.7;    // assumed friction coefficient
   double t_s = 0.05;  // [s], at most 0.06
 };
 
 class PlanCheck {
  public:
-  // `course` must outlive it.
+  // `course` must outlive the check.
   PlanCheck(const PlanCheckSettings& settings, const RoadProfile& course);
 
-  // What goes wrong first, if the vehicle at `z` is given these inputs, with the
-  // obstacles at constant velocity: an obstacle is touched (kObstacle; amount: how far the
-  // rectangle reaches into it, about [m]), a corner leaves the road [m], or the friction coefficient does not suffice [m/s²].
-  // What is out of bounds by as much at the beginning is not the plan's fault. Does not allocate.
-  [[nodiscard]] std::optional<ConstraintViolation> Judge(const State& z, std::span<const Input> u,
-                                                         std::span<const Obstacle> obstacles);
-  // The vehicle may be anywhere: its place on the course is looked for anew.
-  void Reset() { s_.reset(); }
+  // Returns the first violation if the vehicle at `z` is given these inputs and the obstacles keep their velocities:
+  // contact with an obstacle (amount: roughly how far the rectangle reaches into it [m]), a corner off the road [m], or
+  // more acceleration than friction allows [m/s²]. Road and friction count only where the excess is more than 0.02 m or
+  // 0.3 m/s² above the initial one, which is not the plan's fault. The search for the vehicle's place on the course
+  // begins at `s` [m]. Does not allocate.
+  [[nodiscard]] std::optional<ConstraintViolation> Validate(const State& z, double s, std::span<const Input> u,
+                                                            std::span<const Obstacle> obstacles) const;
 
  private:
   [[nodiscard]] double OffRoad(const State& z, double& s) const;
@@ -44,7 +43,6 @@ class PlanCheck {
   PlanCheckSettings settings_;
   DiscreteModel model_;
   const RoadProfile* course_;
-  std::optional<double> s_;  // of the vehicle, at the last judgement
 };
 
 }  // namespace control

@@ -1,4 +1,4 @@
-// Adds rows to a VehicleQp, each together with the constraint that it stands for.
+// Adds rows to a VehicleQp and records which constraint each row stands for.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ struct Softness {
 
 class RowWriter {
  public:
-  // `qp` must outlive it.
+  // `qp` must outlive the writer.
   explicit RowWriter(VehicleQp& qp) : qp_(&qp), constraints_(qp.stages.size()) {}
   RowWriter(const RowWriter&) = delete;
   RowWriter& operator=(const RowWriter&) = delete;
 
   // Removes all rows.
   void Clear();
-  // lo ≤ x[index] ≤ hi, lo ≤ u[index] ≤ hi, and lo ≤ Cᵀx + Dᵀu ≤ hi, at stage constraint.step.
+  // Add lo ≤ x[index] ≤ hi, lo ≤ u[index] ≤ hi, and lo ≤ Cᵀx + Dᵀu ≤ hi at stage constraint.step.
   void AddStateBound(const Constraint& constraint, int index, double lo, double hi,
                      const Softness& softness = {});
   void AddInputBound(const Constraint& constraint, int index, double lo, double hi,
@@ -33,7 +33,7 @@ class RowWriter {
   void AddRow(const Constraint& constraint, const QpState& C, const Input& D, double lo, double hi,
               const Softness& softness = {});
 
-  // False if a stage had no room for one of the rows since Clear. The QP is then incomplete and must not be used.
+  // False if a stage lacked room for a row since Clear. The QP is then incomplete and must not be used.
   [[nodiscard]] bool fits() const { return fits_; }
   [[nodiscard]] const Constraint& constraint(std::size_t stage, std::size_t row) const {
     return constraints_[stage][row];

@@ -1,4 +1,4 @@
-// One of the paper's controllers with the reference that it tracks by time: sample k is where the vehicle should be k t_s
+// One of the paper's controllers, which tracks its reference by time: sample k is where the vehicle should be k·t_s
 // after the start of the route.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace control {
 
 class TimedController final : public Controller {
  public:
-  // `reference` must outlive it; `road` is relative to it.
+  // `reference` must outlive the controller; `road` is relative to the reference.
   TimedController(std::unique_ptr<TrackingController> controller, const TimeReference& reference,
                   const RoadBounds& road);
 

@@ -1,4 +1,4 @@
-// What the paper's controllers take and give: each is handed the window of a reference that it tracks.
+// The interface of the paper's controllers, each of which tracks a given window of a reference.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@ namespace control {
 
 struct TrackingInput {
   State z = State::Zero();           // measured; ψ within π of the reference's
-  Input u_previous = Input::Zero();  // input last applied, against which the rate limits' first step is taken
+  Input u_previous = Input::Zero();  // input applied last, from which the rate limits of the first step count
   std::span<const State> reference;  // z_ref, steps 0..N: N + 1 states
   RoadBounds road;                   // relative to the reference
   std::span<const Obstacle> obstacles;
 };
 
-// Its functions are those of Controller.
+// The functions have the same meaning as those of Controller.
 class TrackingController {
  public:
   virtual ~TrackingController() = default;

@@ -34,16 +34,15 @@ TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadPro
 }
 
 void TrackingProblem::Reset() {
-  placed_ = false;
   waiting_ = false;
   passing_.Reset();
 }
 
-void TrackingProblem::Begin(const State& z, std::span<const Obstacle> obstacles) {
+void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> obstacles) {
   constexpr double kStandstill = 0.15;  // [m/s]
   constexpr double kWay = 0.3;          // [m]
   obstacles_ = obstacles;
-  Place(z);
+  Place(z, s);
   DecidePassing();
   progress_.Fill(s_, z_[kUpsilon], stops_, z_ref_, u_ref_, s_ref_);
   const bool nowhere = s_ref_.back() - s_ref_.front() < kWay;
@@ -63,10 +62,8 @@ void TrackingProblem::Hold(const Input& u_previous, std::span<State> z, std::spa
   }
 }
 
-void TrackingProblem::Place(const State& z) {
-  const RouteProjection place =
-      placed_ ? course_->Project(Position(z), s_) : course_->Find(Position(z), z[kPsi]);
-  placed_ = true;
+void TrackingProblem::Place(const State& z, double s) {
+  const RouteProjection place = course_->Project(Position(z), s);
   s_ = place.s;
   lateral_ = place.lateral;
   z_ = z;

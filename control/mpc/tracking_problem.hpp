@@ -1,9 +1,9 @@
-// What is asked of the vehicle in one control step, whoever solves it: the reference from the vehicle's place on, on which
-// side each obstacle is passed or where to stop, and the rows that hold the vehicle's rectangle on the road and out of
-// obstacles. It keeps what has to last from step to step: the place on the course and the decisions.
+// The tracking problem of one control step, independent of the solver: the reference from the vehicle's place on, the
+// passing side of each obstacle or the place to stop, and the rows that keep the vehicle's rectangle on the road and
+// out of obstacles. The decisions are kept from step to step.
 //
-//   task.Begin(z, obstacles);       // once a step
-//   task.BuildConstraints(z_hat);   // about a predicted trajectory, as often as there is a new one
+//   task.Begin(z, s, obstacles);    // once per step
+//   task.BuildConstraints(z_hat);   // once for each new predicted trajectory
 //   for (const BodyRow& row : task.rows(i)) …
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace control {
 
-// lo ≤ normalᵀ p ≤ hi for the point p of the map where the point `fixed` of the vehicle's body is.
+// lo ≤ normalᵀ p ≤ hi, where p is the position in the map of the point `fixed` of the vehicle's body.
 struct BodyRow {
   Eigen::Vector2d normal;
   Eigen::Vector2d fixed;
@@ -34,31 +34,32 @@ struct BodyRow {
 
 class TrackingProblem {
  public:
-  static constexpr std::size_t kMostRows = 16;  // of a step
+  static constexpr std::size_t kMostRows = 16;  // per step
 
-  // `course` must outlive it.
+  // `course` must outlive the problem.
   TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& course,
                   const LpvAffineSettings& settings);
 
-  void Begin(const State& z, std::span<const Obstacle> obstacles);
-  // False if a step has more rows than there is room for, or there are more obstacles than can be decided about: then no
-  // plan may be made.
+  // `s`: where the search for the vehicle's place on the course begins [m].
+  void Begin(const State& z, double s, std::span<const Obstacle> obstacles);
+  // False if a step needs more than kMostRows rows or there are more than PassingPlanner::kMostObstacles obstacles:
+  // then no plan may be made.
   [[nodiscard]] bool BuildConstraints(std::span<const State> z_hat);
-  // The vehicle may be anywhere, and nothing is decided.
+  // Forgets all decisions.
   void Reset();
 
-  [[nodiscard]] const State& z() const { return z_; }  // of Begin, ψ within π of the course's
-  // At standstill, or almost, with nowhere to go to. It takes more than noise to go on.
+  [[nodiscard]] const State& z() const { return z_; }  // as given to Begin, but ψ within π of the course's
+  // True (almost) at standstill with nowhere to go; hysteresis keeps noise from ending it.
   [[nodiscard]] bool waiting() const { return waiting_; }
-  // The plan of a vehicle that waits: the brake holds, the wheels stay as they are.
+  // Fills in the plan of a waiting vehicle: the brake holds, the wheels stay as they are.
   void Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const;
   [[nodiscard]] std::span<const State> reference() const { return z_ref_; }
   [[nodiscard]] std::span<const Input> reference_input() const { return u_ref_; }
-  // Of step i ≥ 1; they belong to the task until the next BuildConstraints.
+  // Rows of step i ≥ 1, valid until the next BuildConstraints.
   [[nodiscard]] std::span<const BodyRow> rows(std::size_t i) const { return {rows_[i].data(), counts_[i]}; }
 
  private:
-  void Place(const State& z);
+  void Place(const State& z, double s);
   void DecidePassing();
   [[nodiscard]] bool Add(std::size_t i, const BodyRow& row);
   [[nodiscard]] bool AddRoad(std::size_t i, const State& z_hat, const RoutePoint& beside);
@@ -72,14 +73,13 @@ class TrackingProblem {
   PassingPlanner passing_;
 
   State z_ = State::Zero();
-  double s_ = 0.0;        // place on the course [m]
-  double lateral_ = 0.0;  // and beside it, left positive [m]
-  bool placed_ = false;   // since the last Reset
+  double s_ = 0.0;        // arc length on the course [m]
+  double lateral_ = 0.0;  // offset from the course, left positive [m]
   bool waiting_ = false;
   std::span<const Obstacle> obstacles_;
   std::span<const PassingDecision> decisions_;
   std::vector<StopLine> stops_;
-  std::optional<std::size_t> first_stop_;  // index of the obstacle that it stops for
+  std::optional<std::size_t> first_stop_;  // index of the obstacle before which the vehicle stops
   std::vector<State> z_ref_;
   std::vector<Input> u_ref_;
   std::vector<double> s_ref_;

@@ -12,7 +12,7 @@
 
 namespace control {
 
-// The scheduled quantities in the order of p: three states, then δ.
+// The scheduling variables in the order of p: three states, then δ.
 inline constexpr std::array kScheduledStates{kUpsilon, kNu, kPsi};
 inline constexpr std::size_t kScheduledDelta = kScheduledStates.size();
 
@@ -22,16 +22,15 @@ class TrustRegion {
 
   // e_j, scaled by Adapt.
   [[nodiscard]] double Radius(std::size_t j) const { return scale_ * radii_[static_cast<Eigen::Index>(j)]; }
-  // max_j |p_j − p̂_j| / e_j of a state against its prediction, without the scale.
+  // max_j |p_j − p̂_j| / e_j of the three states against their prediction, in unscaled radii.
   [[nodiscard]] double SchedulingError(const State& z, const State& z_hat) const;
-  // Where predictions come true the trust region may be wide; where they do not, the model about them deserves less
-  // trust. `error` is a SchedulingError.
+  // Widens the trust region after accurate predictions and narrows it after poor ones. `error` is a SchedulingError.
   void Adapt(double error);
   void Reset() { scale_ = 1.0; }
 
-  // Visits the scheduling variables of a plan from its states 1..`last_state` and its inputs 0..`last_input` against the
-  // prediction. Returns the largest deviation in unscaled radii; with `bounded`, counts the plan's active rows of the
-  // trust region and computes its largest slack.
+  // Compares the scheduling variables of the plan's states 1..`last_state` and inputs 0..`last_input` with the
+  // prediction. Returns the largest deviation in unscaled radii. If `bounded`, sets the plan's number of active
+  // trust-region rows and its largest slack, else both to 0.
   double Measure(const Prediction& prediction, std::size_t last_state, std::size_t last_input, bool bounded,
                  Plan& plan) const;
 

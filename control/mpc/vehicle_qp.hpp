@@ -1,5 +1,5 @@
-// The quadratic program of the controllers: its state holds the vehicle's state and the input applied before, which makes
-// rate limits rows of a stage.
+// The quadratic program of the controllers. Its state holds the vehicle's state and the previous input, so that the
+// rate limits are rows of a single stage.
 #pragma once
 
 #include <functional>

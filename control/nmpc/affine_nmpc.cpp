@@ -39,7 +39,7 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
     prediction_.Shift();
     return plan_;
   }
-  task_.Begin(input.z, input.obstacles);
+  task_.Begin(input.z, input.place.s, input.obstacles);
   if (task_.waiting()) {
     task_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;

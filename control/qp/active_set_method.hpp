@@ -1,8 +1,8 @@
-// The dual active set of OcpQpSolver. With H the Hessian of the problem without rows and G its rows, deviations from the
-// unconstrained optimum are −H⁻¹Gᵀλ, and the dual of the rows in the working set is solved in dual_active_set.hpp. A
-// column of M = G H⁻¹ Gᵀ is the response to a row: one Riccati sweep with the row's normal as gradient. Violated rows
-// join the working set a few at a time, so that their responses share a sweep, until the point violates none. All other
-// rows are only checked for violation.
+// The dual active-set method of OcpQpSolver. With the Hessian H of the problem without rows, and G its rows, deviations
+// from the unconstrained optimum are −H⁻¹Gᵀλ, and the dual of the rows in the working set is solved in
+// dual_active_set.hpp. A column of M = G H⁻¹ Gᵀ is the response to a row: one Riccati sweep with the row's normal as
+// gradient. Violated rows join the working set a few at a time, so that their responses share a sweep, until the point
+// violates no row. All other rows are only checked for violation.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,15 +45,15 @@ class ActiveSetMethod {
     working_set_.reserve(static_cast<std::size_t>(settings.max_working_set));
   }
 
-  // `optimum` is solved and its loop closed, `point` is written from it. The rows that are active in a warm start (none:
-  // null) are preferred. Fills in the result's iterations and KKT residual, and the point. Returns nothing if another
-  // method has to solve the problem: because of too many rows or round-off, or because a soft row is active on both of
-  // its bounds, which takes lo > hi (the dual has one λ for the two). Does not allocate.
+  // Requires that `optimum` is solved, its loop closed, and `point` written from it. The rows that are active in the
+  // warm start (may be null) are preferred. Fills in the result's iterations and KKT residual, and the point. Returns
+  // nullopt if another method has to solve the problem, because of too many rows or round-off, or because a soft row is
+  // active on both of its bounds (possible only if lo > hi; the dual has one λ for the two). Does not allocate.
   [[nodiscard]] std::optional<SolverStatus> Solve(const Qp& qp, const Optimum& optimum, const Bounds& bounds,
                                                   const Point* warm_start, const TimeLeft* time_left,
                                                   Point& point, QpResult& result);
 
-  // A scan for violated rows at the point of the last solve, public for benchmarks. True if there are any.
+  // Scans for violated rows at the point of the last solve; public for benchmarks. True if there are any.
   bool FindViolated(const Qp& qp, const Bounds& bounds, const Point* warm_start);
 
  private:
@@ -61,7 +61,7 @@ class ActiveSetMethod {
 
   using VectorX = Eigen::Matrix<double, kNx, 1>;
   using VectorU = Eigen::Matrix<double, kNu, 1>;
-  // Deviations from the unconstrained optimum, and the gradient of the Lagrangian.
+  // Deviations from the unconstrained optimum, and the gradient r of the Lagrangian.
   struct StageWork {
     VectorX x, pi, r_x;
     VectorU u, r_u;
@@ -105,8 +105,8 @@ class ActiveSetMethod {
   std::vector<detail::SweepStage<kNx, kNu, kBatch>> responses_;
   DualActiveSet dual_;
   std::vector<RowPlace> working_set_;  // the dual's rows
-  MostViolated<kBatch> candidates_;    // to be added to them
-  // At x, u, λ: the largest violation of a row; the largest λ times its row's distance; and the same with λ of 1 at most.
+  MostViolated<kBatch> candidates_;    // the next rows to be added
+  // At x, u, λ: the largest violation of a row; the largest λ times its row's distance; the same with λ capped at 1.
   double row_error_ = 0.0, complementarity_error_ = 0.0, distance_error_ = 0.0;
 };
 
@@ -154,7 +154,7 @@ std::optional<SolverStatus> ActiveSetMethod<kNx, kNu>::Solve(const Qp& qp, const
     ++corrections;
     CorrectValues(qp);
   }
-  // Nearly dependent rows can have a λ whose round-off exceeds the tolerance.
+  // Nearly dependent rows can have multipliers whose round-off exceeds the tolerance.
   double largest_lambda = 1.0;
   for (int a = 0; a < dual_.size(); ++a) largest_lambda = std::max(largest_lambda, std::abs(dual_.lambda(a)));
   if (!within_tolerance(stationarity - kQpRoundOff * largest_lambda, distance_error_)) return std::nullopt;
@@ -162,11 +162,11 @@ std::optional<SolverStatus> ActiveSetMethod<kNx, kNu>::Solve(const Qp& qp, const
   return SolverStatus::kSolved;
 }
 
-// Makes the most violated rows outside the working set the candidates; a row that is active in the warm start counts the
-// more. Computes the errors of the rows.
+// Makes the most violated rows outside the working set the candidates, preferably those that are active in the warm
+// start. Computes the errors of the rows. True if there are candidates.
 template <int kNx, int kNu>
 bool ActiveSetMethod<kNx, kNu>::FindViolated(const Qp& qp, const Bounds& bounds, const Point* warm_start) {
-  // A warm start of the step before mostly names the right rows; an older one misleads. So it is weighed, not obeyed.
+  // A warm start from the previous step mostly has the right rows active, an older one misleads: it only adds priority.
   constexpr double kTrust = 2.0;
   const double tolerance = RowTolerance();
   candidates_.Clear();
@@ -182,7 +182,7 @@ bool ActiveSetMethod<kNx, kNu>::FindViolated(const Qp& qp, const Bounds& bounds,
       if (!(violation <= slack)) detail::Raise(row_error_, violation - slack);
       if (lambda == 0.0) return;
       const double beyond =
-          lambda > 0.0 ? value - at.hi[j] : at.lo[j] - value;  // the bound that λ belongs to
+          lambda > 0.0 ? value - at.hi[j] : at.lo[j] - value;  // distance beyond the bound of λ
       const double round_off = kQpRoundOff * std::max(1.0, std::abs(value));
       const double distance = std::max(std::abs(beyond - slack) - round_off, 0.0);
       detail::Raise(complementarity_error_, lambda * distance);
@@ -196,7 +196,7 @@ bool ActiveSetMethod<kNx, kNu>::FindViolated(const Qp& qp, const Bounds& bounds,
   return candidates_.size() > 0;
 }
 
-// Adds the candidates to the dual, with their columns of M. False if it is full.
+// Adds the candidates to the dual, with their columns of M. False if the dual is full.
 template <int kNx, int kNu>
 bool ActiveSetMethod<kNx, kNu>::AddRows(const Qp& qp, const Optimum& optimum, const Bounds& bounds) {
   const int first = dual_.size(), count = candidates_.size();
@@ -231,7 +231,7 @@ bool ActiveSetMethod<kNx, kNu>::AddRows(const Qp& qp, const Optimum& optimum, co
   return true;
 }
 
-// Moves x, u to the dual's λ.
+// Computes x, u for the dual's λ.
 template <int kNx, int kNu>
 void ActiveSetMethod<kNx, kNu>::MoveToMultipliers(const Qp& qp, const Optimum& optimum) {
   const std::size_t N = work_.size() - 1;
@@ -247,7 +247,7 @@ void ActiveSetMethod<kNx, kNu>::MoveToMultipliers(const Qp& qp, const Optimum& o
   }
 }
 
-// Gives the dual the rows' values at x, u, which its M yields only to round-off.
+// Replaces the dual's values of the rows by those at x, u; its M yields them only up to round-off.
 template <int kNx, int kNu>
 void ActiveSetMethod<kNx, kNu>::CorrectValues(const Qp& qp) {
   ForEachWorking(qp, [&](const auto& row, std::size_t i, std::size_t, int a) {
@@ -255,7 +255,7 @@ void ActiveSetMethod<kNx, kNu>::CorrectValues(const Qp& qp) {
   });
 }
 
-// The largest entry of the Lagrangian's gradient at x, u, λ. Computes π.
+// Returns the largest entry of the Lagrangian's gradient at x, u, λ. Also computes π.
 template <int kNx, int kNu>
 double ActiveSetMethod<kNx, kNu>::StationarityError(const Qp& qp, const Optimum& optimum) {
   const std::size_t N = work_.size() - 1;

@@ -1,14 +1,15 @@
-// A row of an OcpQp inside the interior point: its bounds as equations, and its part of the Newton step.
+// A row of an OcpQp in the interior-point method: its bounds as equations, and its part of the Newton step.
 //
 // Each bound is an equation with a distance t ≥ 0 and a multiplier λ ≥ 0,
 //   C x + D u + ε − lo = t_lo,   hi + ε − C x − D u = t_hi,   ε = t_ε,   λ t = target,
-// the third in soft rows with σ > 0, and a soft row's slack has the stationarity
+// the third only in soft rows with σ > 0, and the stationarity with respect to a soft row's slack is
 //   ρ ε + σ − λ_lo − λ_hi − λ_ε = 0.
-// Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a curvature on C dx + D du,
+// Eliminating dt, dλ and dε from the Newton equations leaves, for each row, a gradient γ and, on C dx + D du, a
+// curvature
 //   w = w_lo + w_hi − (w_lo − w_hi)² / s,   s = ρ + w_lo + w_hi + w_ε,
 //   w_lo = λ_lo / (t_lo + δ λ_lo), w_hi and w_ε likewise
 // (the quotient in soft rows only, where w is computed as (4 w_lo w_hi + (ρ + w_ε) (w_lo + w_hi)) / s, which
-// cancels no digits; w_ε = 0 where σ = 0), and a gradient γ. δ regularises the step alone,
+// cancels no digits; w_ε = 0 where σ = 0). δ regularises only the step,
 // dt = C dx + D du + dε + residual + δ dλ: it keeps w ≤ 1/δ and so the digits of P, and vanishes with dλ.
 #pragma once
 
@@ -53,10 +54,10 @@ struct BarrierSide {
   }
 };
 
-// What the step does to all bounds together.
+// The effect of a step on all bounds together.
 struct BarrierStep {
-  double longest = kNoBound;                     // the step of this length brings the first t or λ to zero
-  double first_order = 0.0, second_order = 0.0;  // of the sum of all λ t, in the step's length
+  double longest = kNoBound;                     // length of the step at which the first t or λ is zero
+  double first_order = 0.0, second_order = 0.0;  // derivatives of Σ λ t in the step's length
 
   void Add(BarrierSide& side, double distance_step) {
     if (!side.present) return;
@@ -74,12 +75,12 @@ struct BarrierRow {
   BarrierSide slack;  // ε ≥ 0, present where σ > 0
   double epsilon = 0.0;
   double r_epsilon = 0.0;  // gradient of the Lagrangian with respect to ε
-  double inverse_s = 0.0;  // 1 / s; 0 of a hard row
+  double inverse_s = 0.0;  // 1 / s; 0 for a hard row
   double y = 0.0;          // y_lo + y_hi + y_ε − r_epsilon
   double w = 0.0;
   double depsilon = 0.0;
 
-  // The row's bounds for deviations. Returns how many there are.
+  // Takes over the row's bounds for deviations. Returns their number.
   template <typename Row>
   int Begin(const Row& row, double shifted_lo, double shifted_hi) {
     *this = BarrierRow{};
@@ -91,9 +92,9 @@ struct BarrierRow {
     return static_cast<int>(lo.present) + static_cast<int>(hi.present) + static_cast<int>(slack.present);
   }
 
-  // The start at a value of C x + D u with complementarity μ. Every distance is at least `share` of the row's width (of 1
-  // in a wider row) plus 1e-3, every λ at least `at_least`. Where σ > 0 the slack starts stationary, with λ_ε ε = μ, so
-  // λ_lo + λ_hi must stay below σ + ρ ε.
+  // Sets the starting point for a value of C x + D u and complementarity μ. Every distance is at least `share` of the
+  // row's width (of 1 in a wider row) plus 1e-3, every λ at least `at_least`. Where σ > 0 the slack starts stationary,
+  // with λ_ε ε = μ, so λ_lo + λ_hi must stay below σ + ρ ε.
   template <typename Row>
   void Start(const Row& row, double value, double share, double mu, const RowMultiplier& at_least) {
     constexpr double kLeastShare = 0.1;  // of σ, for λ_ε
@@ -122,7 +123,7 @@ struct BarrierRow {
     slack.t = epsilon = mu / slack.lambda;
   }
 
-  // w, and what leads to it.
+  // Computes w and the quantities it consists of.
   template <typename Row>
   void ComputeCurvature(const Row& row) {
     lo.ComputeCurvature();
@@ -136,7 +137,7 @@ struct BarrierRow {
     w = (4.0 * lo.w * hi.w + slack_w * w) * inverse_s;
   }
 
-  // The gradient γ of a step towards λ t = target, with the second-order term of the step before it if asked for.
+  // Returns the gradient γ of a step towards λ t = target, optionally with the second-order term of the previous step.
   double Gradient(double target, bool second_order) {
     lo.SetTarget(target, second_order);
     hi.SetTarget(target, second_order);
@@ -145,7 +146,7 @@ struct BarrierRow {
     return hi.y - lo.y + (lo.w - hi.w) * y * inverse_s;
   }
 
-  // dt, dλ and dε of a step with C dx + D du = dg.
+  // Computes dt, dλ and dε of a step with C dx + D du = dg.
   void ComputeStep(double dg, BarrierStep& step) {
     depsilon = (y - (lo.w - hi.w) * dg) * inverse_s;
     step.Add(lo, dg + depsilon);

@@ -8,8 +8,8 @@ namespace control {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Far above round-off: a false ray proves nothing and does no harm, but a dependent row that joins L leaves λ without
-// digits.
+// This is far above round-off: a false ray proves nothing and does no harm, but a dependent row that joins L leaves λ
+// without digits.
 constexpr double kDependent = 1e-8;
 constexpr double kDependentAfterRestart = 1e-13;
 constexpr int kChangesPerRow = 10;
@@ -66,7 +66,7 @@ DualActiveSet::Result DualActiveSet::Solve(double tolerance) {
       ComputeValue(j);
       const double violation = Violation(j);
       if (violation <= tolerance) continue;
-      // What the dual gains if this row alone moves.
+      // The gain of the dual if this row alone moves.
       const double gain = violation * violation / (M_(j, j) + (row.sigma > 0.0 ? 0.0 : 1.0 / row.rho));
       if (gain > most) {
         most = gain;
@@ -85,7 +85,7 @@ DualActiveSet::Result DualActiveSet::Solve(double tolerance) {
   }
 }
 
-// The value at λ = 0 that, with M, yields this one at λ.
+// Sets the value at λ = 0 that, with M, yields this value at λ.
 void DualActiveSet::Correct(int j, double value) {
   g_0_[j] = value + M_.row(j).head(size_).dot(lambda_.head(size_));
 }
@@ -96,7 +96,7 @@ double DualActiveSet::Residual(int j) const {
   return g_[j] - row.Bound() - slack;
 }
 
-// The distance by which g of a fixed row lies outside what its λ allows.
+// The distance by which g of a fixed row is outside the range that its λ allows.
 double DualActiveSet::Violation(int j) const {
   const Row& row = rows_[At(j)];
   if (lambda_[j] == 0.0) return std::max(g_[j] - row.hi, row.lo - g_[j]);
@@ -116,7 +116,7 @@ void DualActiveSet::ComputeResiduals() {
   }
 }
 
-// The row joins the free ones. False if it depends on them; its part of L is then in row free_count_ of L.
+// Adds the row to the free ones. False if it depends on them; row free_count_ of L then holds its part of L.
 bool DualActiveSet::Append(int j) {
   Row& row = rows_[At(j)];
   const int n = free_count_;
@@ -136,7 +136,7 @@ bool DualActiveSet::Append(int j) {
   return true;
 }
 
-// Takes a row out of L: the rows after it move up, and rotations of neighbouring columns make L lower triangular again.
+// Removes a row from L: the rows after it move up, and rotations of neighbouring columns restore the triangular form.
 void DualActiveSet::Remove(int j) {
   Row& row = rows_[At(j)];
   const int q = row.place;
@@ -169,7 +169,7 @@ void DualActiveSet::SolveTransposed() {
   }
 }
 
-// Frees a fixed row, with λ where it is.
+// Frees a fixed row at its present λ.
 DualActiveSet::Result DualActiveSet::Free(int j) {
   Row& row = rows_[At(j)];
   if (lambda_[j] == 0.0) row.side = g_[j] > row.hi ? 1.0 : -1.0;
@@ -181,13 +181,13 @@ DualActiveSet::Result DualActiveSet::Free(int j) {
   }
   while (!Append(j)) {
     if (++changes_ > kChangesPerRow * capacity_) return Result::kStuck;
-    // The free rows compensate this one wholly: g stays while λ moves along the ray.
+    // The free rows compensate this one completely: g stays the same while λ moves along the ray.
     for (int i = 0; i < size_; ++i) rows_[At(i)].direction = 0.0;
     y_.head(free_count_) = -sign * L_.row(free_count_).head(free_count_).transpose();
     SolveTransposed();
     for (int i = 0; i < free_count_; ++i) {
       Row& compensating = rows_[At(free_[At(i)])];
-      // A relaxed row has no part in a ray but round-off.
+      // A relaxed row's part in a ray is only round-off.
       if (compensating.piece == Piece::kHeld) compensating.direction = y_[i];
     }
     row.direction = sign;
@@ -220,7 +220,7 @@ bool DualActiveSet::Settle() {
   return true;
 }
 
-// Moves the free rows, and the joining one, along their directions until the limit or the first end of a piece.
+// Moves λ of the free rows, and of the joining one, along their directions up to the limit or the first breakpoint.
 DualActiveSet::Step DualActiveSet::Advance(double limit, int joining) {
   Step step{.length = limit, .blocking = -1};
   double end = 0.0;

@@ -1,4 +1,4 @@
-// The best that can be made of a solve that was stopped.
+// The best feasible point available after a solve that was stopped early.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace control {
 
-// Sets the slacks of the soft rows to what x, u need. Returns the cost; infinite if a hard row is violated by more than
-// the tolerance, or a number is not finite.
+// Sets the slacks of the soft rows to the smallest that x, u permit. Returns the cost; infinity if a hard row is
+// violated by more than the tolerance or the cost is not finite.
 template <int kNx, int kNu>
 [[nodiscard]] double FillSlacks(const OcpQp<kNx, kNu>& qp, double tolerance, OcpQpPoint<kNx, kNu>& point) {
   bool hold = true;
@@ -28,8 +28,8 @@ template <int kNx, int kNu>
   return cost;
 }
 
-// Leaves in `point` the cheaper of itself and the trajectory of the warm start's inputs (none: null) among those that are
-// feasible. False if neither is; then it stays as it is. `scratch` is work space.
+// Replaces `point` by the trajectory of the warm start's inputs (may be null) if that is feasible, and `point` costs
+// more or is infeasible. False if neither is feasible; x, u of `point` are then unchanged. `scratch` is work space.
 template <int kNx, int kNu>
 [[nodiscard]] bool SettleForFeasible(const OcpQp<kNx, kNu>& qp, double tolerance,
                                      const OcpQpPoint<kNx, kNu>* warm_start, OcpQpPoint<kNx, kNu>& scratch,

@@ -1,6 +1,6 @@
-// The interior point of OcpQpSolver: primal-dual, with Mehrotra's predictor and corrector. What barrier_row.hpp leaves of
-// the Newton system is solved by the Riccati recursion of riccati.hpp, where g_x, g_u are the gradients of the Lagrangian
-// at the iterate plus Σ γ C, Σ γ D of the rows.
+// The interior-point method of OcpQpSolver: primal-dual, with Mehrotra's predictor and corrector. The Newton system as
+// reduced by barrier_row.hpp is solved by the Riccati recursion of riccati.hpp, where g_x, g_u are the gradients of the
+// Lagrangian at the iterate plus Σ γ C, Σ γ D of the rows.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,8 +38,8 @@ class InteriorPointMethod {
         riccati_(work_.size()),
         sweep_(work_.size()) {}
 
-  // Starts from the warm start (none: null) if that is near. `point` is the last iterate, whatever the outcome. Does not
-  // allocate.
+  // Starts from the warm start (may be null) if that is near enough. Writes the last iterate to `point`, except after
+  // kNumericalFailure. Does not allocate.
   [[nodiscard]] QpResult Solve(const Qp& qp, const Optimum& optimum, const Bounds& bounds,
                                const Point* warm_start, const TimeLeft* time_left, Point& point);
 
@@ -60,13 +60,13 @@ class InteriorPointMethod {
         qp, [&](std::size_t i) { return static_cast<std::size_t>(qp.stages[i].row_count); },
         [&](std::size_t i, std::size_t j) { return work_[i].rows[j].w; }, riccati_);
   }
-  // The Newton step towards λ t = target, with Mehrotra's second-order term of the step before it if asked for.
+  // Computes the Newton step towards λ t = target, optionally with Mehrotra's second-order term of the previous step.
   void Step(const Qp& qp, double target, bool second_order);
 
  private:
   using VectorX = Eigen::Matrix<double, kNx, 1>;
   using VectorU = Eigen::Matrix<double, kNu, 1>;
-  // Deviations from the unconstrained optimum, and the gradient of the Lagrangian.
+  // Deviations from the unconstrained optimum, and the gradient r of the Lagrangian.
   struct StageWork {
     VectorX x, pi, r_x;
     VectorU u, r_u;
@@ -74,7 +74,7 @@ class InteriorPointMethod {
   };
 
   [[nodiscard]] bool StartFrom(const Qp& qp, const Optimum& optimum, const Point& warm_start);
-  // The largest α ≤ 1 that leaves of every t and λ at least the fraction 1 − keep.
+  // The largest α ≤ 1 after which every t and λ is at least the fraction 1 − keep of its value before.
   [[nodiscard]] double StepLength(double keep) const { return std::min(1.0, keep * step_.longest); }
   // μ after a step of length α.
   [[nodiscard]] double ComplementarityAfter(double alpha) const {
@@ -87,11 +87,11 @@ class InteriorPointMethod {
   std::vector<StageWork> work_;
   std::vector<detail::RiccatiStage<kNx, kNu>> riccati_;
   std::vector<detail::SweepStage<kNx, kNu, 1>> sweep_;
-  // At the iterate: the largest |distance − t|; the largest λ times its row's distance; and the same with λ of 1 at most.
+  // At the iterate: the largest |distance − t|; the largest λ times its row's distance; the same with λ capped at 1.
   double row_error_ = 0.0, complementarity_error_ = 0.0, distance_error_ = 0.0;
   double mu_ = 0.0;  // mean complementarity
   BarrierStep step_;
-  int sides_ = 0;  // finite bounds, those of slacks among them
+  int sides_ = 0;  // number of finite bounds, including those of slacks
 };
 
 template <int kNx, int kNu>
@@ -107,19 +107,19 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
   constexpr int kMaxHalvings = 6;
   constexpr double kShort = 0.9;
   double alpha = 1.0;
-  double infeasibility = 1.0;  // the fraction that is left of the start's residuals of the linear equations
+  double infeasibility = 1.0;  // remaining fraction of the initial residuals of the linear equations
   for (;; ++result.iterations) {
     const double linear = Residuals(qp);
     result.kkt_residual = std::max(linear, complementarity_error_);
     if (!std::isfinite(result.kkt_residual)) return result;
     const bool at_limit = result.iterations == settings_.max_iterations;
-    // Some λ are so large that their round-off exceeds the tolerance, as in the active set.
+    // As in the active set, some λ can be so large that their round-off exceeds the tolerance.
     const double largest = std::max(linear, at_limit ? distance_error_ : complementarity_error_);
     if (largest <= tolerance && row_error_ <= settings_.tolerance) {
       result.status = SolverStatus::kSolved;
       break;
     }
-    // Multipliers that prove something grow where steps are short.
+    // Multipliers that prove infeasibility grow while steps are short.
     if (row_error_ > tolerance && result.iterations >= 3 && alpha < kShort) {
       Write(qp, optimum, point);
       if (ProvesInfeasible(qp, point)) {
@@ -132,17 +132,17 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
       break;
     }
     if (!Factorise(qp)) return result;
-    // Predictor: straight at complementarity zero. Its length determines how much centring the corrector needs.
+    // The predictor aims at complementarity zero. Its length determines how much centring the corrector needs.
     Step(qp, 0.0, false);
     const double ratio = ComplementarityAfter(StepLength(1.0)) / mu_;
-    // A μ far below the tolerance would cost digits (t of the size of round-off) and gain nothing.
+    // A μ far below the tolerance would cost digits (t as small as round-off) and gain nothing.
     const double target = std::max(ratio * ratio * ratio * mu_, 1e-2 * tolerance);
     Step(qp, target, true);
-    const double keep = std::clamp(1.0 - mu_, 0.995, 1.0 - 1e-8);  // 1 would leave a t of zero
+    const double keep = std::clamp(1.0 - mu_, 0.995, 1.0 - 1e-8);  // 1 would allow t = 0
     alpha = StepLength(keep);
     // The second-order term can make the iterates cycle (C. Cartis, Some disadvantages of a Mehrotra-type primal-dual
     // corrector interior point algorithm for linear programming, 2009). A cycle raises μ somewhere. Once the linear
-    // equations hold, a step without that term lowers it at first.
+    // equations hold, a sufficiently short step without that term lowers μ.
     if (infeasibility <= 1e-2 && ComplementarityAfter(alpha) > mu_) {
       Step(qp, 0.3 * mu_, false);
       alpha = StepLength(keep);
@@ -155,11 +155,11 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
   return result;
 }
 
-// From the unconstrained optimum. Where that violates a row with σ > 0, λ_lo + λ_hi may have to rise to σ: μ starts the
-// larger, as steps are short while infeasibility is large beside μ.
+// Starts from the unconstrained optimum. If that violates a row with σ > 0, λ_lo + λ_hi may have to rise to σ: μ then
+// starts larger, since steps are short while infeasibility is large compared with μ.
 template <int kNx, int kNu>
 void InteriorPointMethod<kNx, kNu>::StartCold(const Qp& qp) {
-  constexpr double kShare = 0.1;  // of the width, where t starts: λ = σ there needs μ = kShare σ
+  constexpr double kShare = 0.1;  // t starts at this share of the width, where λ = σ needs μ = kShare σ
   constexpr double kMostMu = 100.0;
   double mu = 1.0;
   for (StageWork& work : work_) {
@@ -178,8 +178,9 @@ void InteriorPointMethod<kNx, kNu>::StartCold(const Qp& qp) {
   });
 }
 
-// From the warm start's inputs and multipliers, kept off the boundary so that a row may still change sides. False if it
-// violates a row by more than the start can bridge: from far outside a cold start takes fewer steps.
+// Starts from the warm start's inputs and multipliers, kept off the boundary so that a row may still become active or
+// inactive. False if they violate a row by more than its slack plus kMaxViolation: from far outside, a cold start takes
+// fewer steps.
 template <int kNx, int kNu>
 bool InteriorPointMethod<kNx, kNu>::StartFrom(const Qp& qp, const Optimum& optimum, const Point& warm_start) {
   constexpr double kStartMu = 0.1;
@@ -202,7 +203,7 @@ bool InteriorPointMethod<kNx, kNu>::StartFrom(const Qp& qp, const Optimum& optim
   return true;
 }
 
-// Computes the residuals of all equations but λ t = 0, μ, and the errors of the rows. Returns the largest residual.
+// Computes the residuals of all equations except λ t = 0, μ, and the errors of the rows. Returns the largest residual.
 template <int kNx, int kNu>
 double InteriorPointMethod<kNx, kNu>::Residuals(const Qp& qp) {
   const std::size_t N = work_.size() - 1;

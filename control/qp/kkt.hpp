@@ -1,4 +1,4 @@
-// The conditions of optimality (Karush, Kuhn, Tucker) of an OcpQp, its cost, and the proof that it has no solution.
+// The conditions of optimality (Karush, Kuhn, Tucker) of an OcpQp, its cost, and a proof of infeasibility.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct KktResidual {
   double stationarity = 0.0;     // gradient of the Lagrangian with respect to x, u and, where σ = 0, ε
   double dynamics = 0.0;         // x_0 and x_{i+1} = A x + B u + c
   double rows = 0.0;             // lo − ε ≤ C x + D u ≤ hi + ε, and ε ≥ 0 where σ > 0
-  double multipliers = 0.0;      // λ ≥ 0, λ_ε among them
+  double multipliers = 0.0;      // λ ≥ 0, including λ_ε
   double complementarity = 0.0;  // λ times its row's distance to the bound
 
   [[nodiscard]] double Max() const {
@@ -74,7 +74,7 @@ template <int kNx, int kNu>
       side(row.has_lo(), lambda.lo, value - row.lo);
       side(row.has_hi(), lambda.hi, row.hi - value);
     }
-    if (i > 0) stationarity_x.Add(gradient_x);  // x_0 is given: its gradient is free
+    if (i > 0) stationarity_x.Add(gradient_x);  // x_0 is given: its gradient need not vanish
     if (!terminal) stationarity_u.Add(gradient_u);
   }
   residual.dynamics = dynamics.Value();
@@ -105,7 +105,7 @@ template <int kNx, int kNu>
 // Any feasible trajectory has 0 ≤ Σ λ_lo (C x + D u − lo) + λ_hi (hi − C x − D u) = Σ (dᵢᵀxᵢ + eᵢᵀuᵢ) +
 // constant with d = Σ_j C_j (λ_lo − λ_hi), e likewise. The adjoint π_N = d_N, π_i = d_i + Aᵀ π_{i+1} turns it
 // into constant + π_0ᵀ x_0 + Σ π_{i+1}ᵀ c_i + Σ (e_i + Bᵀ π_{i+1})ᵀ u_i, whose maximum over the inputs'
-// bounds is summed here. An input without a bound must have no part in it, but for the round-off of its terms.
+// bounds is summed here. An unbounded input must have a zero coefficient, up to the round-off of its terms.
 template <int kNx, int kNu>
 [[nodiscard]] bool ProvesInfeasible(const OcpQp<kNx, kNu>& qp, const OcpQpPoint<kNx, kNu>& point) {
   constexpr double kRoundOff = 1e-9, kRoundOffOfCoefficient = 1e-12;

@@ -1,4 +1,4 @@
-// Maxima of absolute values in which a NaN is not lost.
+// Maxima of absolute values that do not lose a NaN.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ inline void Raise(double& largest, double value) {
     largest = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
 }
 
-// The largest absolute value among the entries of vectors; infinite if one of them is NaN.
+// The largest absolute value among the entries of vectors; infinity if one of them is NaN.
 template <int kSize>
 class LargestEntry {
  public:

@@ -1,4 +1,4 @@
-// The few rows of highest priority among those offered.
+// The rows of highest priority among those offered, at most kCapacity.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ template <int kCapacity>
 class MostViolated {
  public:
   void Clear() { size_ = 0; }
-  // Keeps it if fewer than kCapacity have a priority at least as high.
+  // Keeps the row if fewer than kCapacity rows have a priority at least as high.
   void Offer(const RowPlace& place) {
     if (size_ == kCapacity && rows_.back().priority >= place.priority) return;
     if (size_ < kCapacity) ++size_;
@@ -25,7 +25,7 @@ class MostViolated {
     rows_[k] = place;
   }
   [[nodiscard]] int size() const { return static_cast<int>(size_); }
-  // In order of falling priority.
+  // Rows in order of falling priority.
   [[nodiscard]] std::span<const RowPlace> rows() const { return {rows_.data(), size_}; }
 
  private:

@@ -20,7 +20,7 @@ struct RowMultiplier {
   [[nodiscard]] static RowMultiplier FromDifference(double lambda) {
     return {.lo = std::max(0.0, -lambda), .hi = std::max(0.0, lambda)};
   }
-  // Whether the row is active: an interior point leaves less than this on an inactive row.
+  // True if the row is active: an interior point leaves a smaller multiplier on an inactive row.
   [[nodiscard]] bool IsActive() const { return std::max(lo, hi) > 1e-6; }
 };
 
@@ -35,8 +35,8 @@ struct OcpQpPoint {
     std::array<double, kMaxRows> slack{};  // ε
   };
   explicit OcpQpPoint(int horizon) : stages(static_cast<std::size_t>(horizon) + 1) {}
-  // Makes it a warm start for the problem one stage later. The last two stages stay as they are: the rows of stage N
-  // differ from those of stage N − 1.
+  // Makes the point a warm start for the problem one stage later. The last two stages stay as they are, because the
+  // rows of stage N differ from those of stage N − 1.
   void Shift() { std::copy(stages.begin() + 1, stages.end() - 1, stages.begin()); }
 
   std::vector<Stage> stages;

@@ -1,4 +1,4 @@
-// The optimal-control quadratic program that every controller here solves:
+// The optimal-control quadratic program that the LPVMPC controllers solve:
 //
 //   min   Σ_{i=0..N} ½ xᵢᵀ diag(Q_i) xᵢ + q_iᵀ xᵢ  +  Σ_{i=0..N-1} ½ uᵢᵀ diag(R_i) uᵢ + r_iᵀ uᵢ
 //         +  Σ_soft ½ ρ ε² + σ ε
@@ -6,12 +6,11 @@
 //         lo − ε ≤ C xᵢ + D uᵢ ≤ hi + ε     for every row of stage i; ε = 0 where the row is hard,
 //                                           ε ≥ 0 where σ > 0
 //
-// A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 it is convex.
+// A soft row has one slack ε, shared by both sides. Stage N has no input. With Q ⪰ 0 and R ≻ 0 the problem is convex.
 //
-// With σ = 0 a soft row is violated a little as soon as it costs anything to hold. With σ > 0 the penalty is
-// exact: an optimum with these rows hard whose multipliers λ_lo + λ_hi are each at most σ is the optimum with
-// them soft, too. So no row that can hold is violated if σ is above them. In a violated row
-// λ_lo + λ_hi = σ + ρ ε.
+// With σ = 0 a soft row is violated a little as soon as satisfying it costs anything. With σ > 0 the penalty is
+// exact: an optimum with these rows hard is also the optimum with them soft if each row's λ_lo + λ_hi is at most
+// σ. So, if σ is large enough, no row is violated that can be satisfied. In a violated row λ_lo + λ_hi = σ + ρ ε.
 // Source: R. Fletcher, Practical Methods of Optimization, 2nd edition (1987), chapter 14 (exact penalty).
 #pragma once
 
@@ -24,7 +23,7 @@
 namespace control {
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
-inline constexpr int kMaxRows = 28;  // rows a stage can hold
+inline constexpr int kMaxRows = 28;  // largest number of rows in a stage
 
 template <int kNx, int kNu>
 struct OcpQpRow {
@@ -40,7 +39,7 @@ struct OcpQpRow {
   int unit = kGeneral;       // index in [x; u] if the row bounds that variable alone, with coefficient 1
 
   [[nodiscard]] bool soft() const { return rho >= 0.0; }
-  [[nodiscard]] bool exact() const { return soft() && sigma > 0.0; }  // its slack has the bound ε ≥ 0
+  [[nodiscard]] bool exact() const { return soft() && sigma > 0.0; }  // ε ≥ 0 is a bound of its own
   [[nodiscard]] bool has_zero_penalty() const { return rho == 0.0 && sigma == 0.0; }
   [[nodiscard]] bool has_lo() const { return lo > -kNoBound; }
   [[nodiscard]] bool has_hi() const { return hi < kNoBound; }
@@ -61,10 +60,10 @@ struct OcpQpStage {
   int row_count = 0;
 
   void ClearRows() { row_count = 0; }
-  // lo ≤ x[index] ≤ hi and lo ≤ u[index] ≤ hi. If the stage is full they return false and add nothing.
+  // Add lo ≤ x[index] ≤ hi or lo ≤ u[index] ≤ hi. All three return false and add nothing if the stage is full.
   [[nodiscard]] bool AddStateBound(int index, double lo, double hi, double rho = -1.0, double sigma = 0.0);
   [[nodiscard]] bool AddInputBound(int index, double lo, double hi, double rho = -1.0, double sigma = 0.0);
-  // lo ≤ C x + D u ≤ hi.
+  // Adds lo ≤ C x + D u ≤ hi.
   [[nodiscard]] bool AddRow(const Eigen::Matrix<double, kNx, 1>& C, const Eigen::Matrix<double, kNu, 1>& D,
                             double lo, double hi, double rho = -1.0, double sigma = 0.0);
 };
@@ -114,11 +113,11 @@ bool OcpQpStage<kNx, kNu>::AddRow(const Eigen::Matrix<double, kNx, 1>& C,
   return true;
 }
 
-// True if every number is finite, but for the infinite bounds that are absent, and no σ negative. Comparisons alone
-// would not do: a bound that is not a number looks absent, a weight that is not one looks like a hard row's.
+// True if every number is finite, except the infinite bounds that mean "no bound", and no σ is negative. Comparisons
+// alone would not suffice: a NaN bound looks like no bound, a NaN weight like that of a hard row.
 template <int kNx, int kNu>
 [[nodiscard]] bool HasFiniteData(const OcpQp<kNx, kNu>& qp) {
-  // Sums of zero times each number: zero, or not a number. Several sums, so that none waits for another.
+  // Sums of zero times each number are zero or NaN. Several sums run in parallel, so that none waits for another.
   Eigen::Matrix<double, kNx, 1> zero_x = 0.0 * qp.x0, zero_a = Eigen::Matrix<double, kNx, 1>::Zero();
   Eigen::Matrix<double, kNu, 1> zero_u = Eigen::Matrix<double, kNu, 1>::Zero();
   double zero = 0.0;

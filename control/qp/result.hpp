@@ -11,12 +11,12 @@ enum class QpMethod : std::uint8_t { kUnconstrained, kActiveSet, kInteriorPoint 
 
 struct QpResult {
   SolverStatus status = SolverStatus::kNumericalFailure;
-  QpMethod method = QpMethod::kUnconstrained;  // the one that gave the answer
+  QpMethod method = QpMethod::kUnconstrained;  // that gave the answer
   int iterations = 0;         // changes of the active set, or iterations of the interior point
   double kkt_residual = 0.0;  // of a solved problem
   bool feasible = false;      // the solution satisfies the dynamics and the hard rows
 
-  // The solution is worth handing to the next solve: an unconstrained optimum has no multipliers.
+  // True if the solution is useful as a warm start: an unconstrained optimum has no multipliers.
   [[nodiscard]] bool CanWarmStart() const {
     return status == SolverStatus::kSolved && method != QpMethod::kUnconstrained;
   }

@@ -1,5 +1,5 @@
-// The Riccati recursion: an unconstrained linear-quadratic problem once its matrices are factorised, and sweeps of it for
-// one gradient or for several side by side.
+// The Riccati recursion for an unconstrained linear-quadratic problem: the factorisation of its matrices, and sweeps
+// for one gradient or for several at once.
 //
 //   min Σ ½ xᵀQx + ½ uᵀRu + Σ ½ w (Cx + Du)² + g_xᵀx + g_uᵀu   s.t.  x' = A x + B u
 //
@@ -8,7 +8,7 @@
 //   P = Q + KᵀRK + A_Kᵀ P' A_K + Σ w C_K C_Kᵀ,   K = −H_uu⁻¹ H_ux,
 //   H_uu = R + BᵀP'B + Σ w DDᵀ,                  H_ux = BᵀP'A + Σ w DCᵀ,
 //   p = g_x + Kᵀg_u + A_Kᵀ p',                   k = −H_uu⁻¹ (g_u + Bᵀp')
-// A row that bounds an input alone is a term of R, one with D = 0 is one of Q.
+// A row that bounds only an input adds to R, a row with D = 0 adds to Q.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +23,8 @@ namespace control {
 
 namespace detail {
 
-// The product of small matrices of known sizes, unrolled: from 8 × 8 on Eigen would choose the blocked product for large
-// matrices, which costs several times as much here.
+// The unrolled product of small matrices of fixed sizes. From 8 × 8 on, Eigen would choose its blocked product for
+// large matrices, which costs several times as much here.
 template <typename Left, typename Right>
 auto Product(const Left& left, const Right& right) {
   return left.lazyProduct(right);
@@ -33,10 +33,10 @@ auto Product(const Left& left, const Right& right) {
 template <int kNx, int kNu>
 struct RiccatiStage {
   Eigen::Matrix<double, kNx, kNx> P;               // cost-to-go ½ xᵀP x
-  Eigen::Matrix<double, kNx, kNx> A_transposed;    // its products need no sums across a vector register
+  Eigen::Matrix<double, kNx, kNx> A_transposed;    // its products need no sums across vector registers
   Eigen::Matrix<double, kNx, kNx> A_K_transposed;  // (A + B K)ᵀ
   Eigen::Matrix<double, kNx, kNu> K_transposed;    // u = k + K x
-  // H_uu = L D Lᵀ, L with ones on its diagonal. Beside a w of 1e10 the inverse of H_uu itself has few digits.
+  // H_uu = L D Lᵀ, L with ones on its diagonal. With w around 1e10 the inverse of H_uu itself would have few digits.
   Eigen::Matrix<double, kNu, kNu> L_inverse;
   Eigen::Matrix<double, kNu, 1> D_inverse;
 
@@ -62,18 +62,18 @@ struct RiccatiStage {
   }
 };
 
-// kCols gradients, and the trajectories from x_0 = 0 that minimise with them.
+// kCols gradients, and for each the optimal trajectory from x_0 = 0.
 template <int kNx, int kNu, int kCols>
 struct SweepStage {
   static constexpr int kOrder = kCols > 1 ? Eigen::RowMajor : Eigen::ColMajor;
 
-  Eigen::Matrix<double, kNx, kCols, kOrder> p;  // before the sweep g_x, after it the cost-to-go's gradient
-  Eigen::Matrix<double, kNu, kCols, kOrder> k;  // before the sweep g_u, after it the feedforward
+  Eigen::Matrix<double, kNx, kCols, kOrder> p;  // g_x before the sweep, the cost-to-go's gradient after it
+  Eigen::Matrix<double, kNu, kCols, kOrder> k;  // g_u before the sweep, the feedforward after it
   Eigen::Matrix<double, kNx, kCols, kOrder> dx;
   Eigen::Matrix<double, kNu, kCols, kOrder> du;
 };
 
-// The gradients of stages 0..last to zero.
+// Sets the gradients of stages 0..last to zero.
 template <int kNx, int kNu, int kCols>
 void ClearGradients(std::size_t last, std::vector<SweepStage<kNx, kNu, kCols>>& sweep) {
   for (std::size_t i = 0; i <= last; ++i) {
@@ -82,7 +82,7 @@ void ClearGradients(std::size_t last, std::vector<SweepStage<kNx, kNu, kCols>>& 
   }
 }
 
-// min Σ ½ dxᵀQ dx + ½ duᵀR du + g_xᵀdx + g_uᵀdu with the factorised matrices; g is zero after stage `last`.
+// Solves min Σ ½ dxᵀQ dx + ½ duᵀR du + g_xᵀdx + g_uᵀdu with the factorised matrices; g is zero after stage `last`.
 template <int kNx, int kNu, int kCols>
 void SweepRiccati(const OcpQp<kNx, kNu>& qp, const std::vector<RiccatiStage<kNx, kNu>>& riccati,
                   std::size_t last, std::vector<SweepStage<kNx, kNu, kCols>>& sweep) {
@@ -107,13 +107,13 @@ void SweepRiccati(const OcpQp<kNx, kNu>& qp, const std::vector<RiccatiStage<kNx,
     auto& s = sweep[i];
     s.du = Product(at.K_transposed.transpose(), s.dx);
     if (i <= last) s.du += s.k;
-    // Not by A_K: the dynamics hold to round-off, however large K is.
+    // Without A_K the dynamics hold to round-off, however large K is.
     sweep[i + 1].dx = Product(qp.stages[i].A, s.dx) + Product(qp.stages[i].B, s.du);
   }
 }
 
-// Factorises with the curvatures of the first row_count(i) rows of each stage i, curvature(i, j). A_transposed stays as
-// it is. False if a pivot is not positive.
+// Factorises the problem with curvature(i, j) for the first row_count(i) rows j of each stage i. Does not write
+// A_transposed. False if a pivot is not positive.
 template <int kNx, int kNu, typename RowCount, typename Curvature>
 [[nodiscard]] bool FactoriseRiccati(const OcpQp<kNx, kNu>& qp, const RowCount& row_count,
                                     const Curvature& curvature, std::vector<RiccatiStage<kNx, kNu>>& stages) {
@@ -175,8 +175,8 @@ template <int kNx, int kNu, typename RowCount, typename Curvature>
   return true;
 }
 
-// The largest entry of the Lagrangian's gradient. own_x(i) and own_u(i) are the parts of stage i's gradient without the
-// dynamics of the stage after it, whose multiplier is pi(i + 1).
+// Returns the largest entry of the Lagrangian's gradient. own_x(i) and own_u(i) are stage i's gradient without the term
+// of the dynamics to the next stage, whose multiplier is pi(i + 1).
 template <int kNx, int kNu, typename OwnX, typename OwnU, typename Pi>
 [[nodiscard]] double LargestGradient(const OcpQp<kNx, kNu>& qp,
                                      const std::vector<RiccatiStage<kNx, kNu>>& riccati, OwnX&& own_x,
@@ -187,7 +187,7 @@ template <int kNx, int kNu, typename OwnX, typename OwnU, typename Pi>
   for (std::size_t i = 0; i < N; ++i) {
     const Eigen::Matrix<double, kNx, 1>& pi_next = pi(i + 1);
     of_u.Add(own_u(i) + Product(qp.stages[i].B.transpose(), pi_next));
-    // x_0 is given: its gradient is free.
+    // x_0 is given: its gradient need not vanish.
     if (i > 0) of_x.Add(own_x(i) + Product(riccati[i].A_transposed, pi_next));
   }
   of_x.Add(own_x(N));

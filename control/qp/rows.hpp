@@ -1,4 +1,4 @@
-// Operations on the rows of an OcpQp, for general rows and for bounds of a single variable alike.
+// Operations on the rows of an OcpQp, both general rows and bounds of a single variable.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void ForEachRow(const Qp& qp, Visit&& visit) {
   }
 }
 
-// C x + D u.
+// Returns C x + D u.
 template <typename Row, typename VectorX, typename VectorU>
 double RowValue(const Row& row, const VectorX& x, const VectorU& u) {
   if (row.unit >= VectorX::RowsAtCompileTime) return u[row.unit - VectorX::RowsAtCompileTime];
@@ -28,7 +28,7 @@ double RowValue(const Row& row, const VectorX& x, const VectorU& u) {
   return row.C.dot(x) + row.D.dot(u);
 }
 
-// The distance by which a value lies outside its bounds; negative inside.
+// The distance by which a value is outside its bounds; negative inside.
 inline double Violation(double lo, double hi, double value) {
   return std::max(lo - value, value - hi);
 }
@@ -46,7 +46,7 @@ void AddRowGradient(const Row& row, double factor, VectorX& gradient_x, VectorU&
   }
 }
 
-// The slack of a row with this multiplier λ_hi − λ_lo and this violation.
+// The slack of a row with multiplier λ = λ_hi − λ_lo and the given violation.
 template <typename Row>
 double SlackOf(const Row& row, double lambda, double violation) {
   if (!row.soft()) return 0.0;

@@ -1,4 +1,4 @@
-// The bounds of an OcpQp's rows for deviations from the optimum without rows.
+// The bounds of an OcpQp's rows for deviations from the unconstrained optimum.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class ShiftedBounds {
 
   explicit ShiftedBounds(int horizon) : stages_(static_cast<std::size_t>(horizon) + 1) {}
 
-  // Returns the largest violation of a row at the optimum without rows; infinite if a row's value is not finite. Rows
+  // Returns the largest violation of a row at the unconstrained optimum; infinity if a row's value is not finite. Rows
   // with zero penalty do not count.
   [[nodiscard]] double Shift(const OcpQp<kNx, kNu>& qp, const Unconstrained<kNx, kNu>& optimum) {
     double violation = 0.0;
@@ -43,7 +43,7 @@ class ShiftedBounds {
     return violation;
   }
 
-  // Gives rows with zero penalty the slacks that they need at the point.
+  // Sets the slacks that rows with zero penalty need at the point.
   void FillFreeSlacks(const OcpQp<kNx, kNu>& qp, OcpQpPoint<kNx, kNu>& point) const {
     if (!has_zero_penalties_) return;
     detail::ForEachRow(qp, [&](const auto& row, std::size_t i, std::size_t j) {

@@ -1,9 +1,9 @@
 // Solves an OcpQp by the cheapest of three methods that succeeds:
-//   1. The optimum without rows, by one Riccati recursion (unconstrained.hpp). If it violates no row, it is the answer.
-//   2. A dual active set on the rows that matter, with sweeps of that recursion: O(N) for each row
+//   1. The unconstrained optimum, by one Riccati recursion (unconstrained.hpp). The answer if it violates no row.
+//   2. A dual active-set method on the rows that matter, with sweeps of that recursion: O(N) per row
 //      (active_set_method.hpp).
-//   3. Where the active set gets too many rows or loses its digits, and where a soft row is active on both of its bounds,
-//      a primal-dual interior point: O(N) for each iteration (interior_point_method.hpp).
+//   3. A primal-dual interior-point method: O(N) per iteration (interior_point_method.hpp). It is used if the active
+//      set needs too many rows or loses its digits, or if a soft row is active on both of its bounds.
 //
 // Sources: C. V. Rao, S. J. Wright, J. B. Rawlings, Application of interior-point methods to model predictive control
 // (1998), for the recursion and 3; D. Goldfarb, A. Idnani, A numerically stable dual method for solving strictly convex
@@ -36,16 +36,17 @@ class OcpQpSolver {
 
   explicit OcpQpSolver(int horizon, const QpSettings& settings = {});  // horizon ≥ 1
 
-  // `qp` and the warm start must have the solver's horizon. The warm start, which must not be solution() itself, says
+  // `qp` and the warm start must have the solver's horizon. The warm start, which must not be solution() itself, shows
   // which rows to consider first and where the interior point starts. Does not allocate.
   //   kSolved            solution() satisfies the conditions of optimality to the tolerance (in deviations from the
-  //                      unconstrained optimum, whose own round-off comes on top)
-  //   kInfeasible        solution()'s multipliers prove it (ProvesInfeasible)
-  //   kIterationLimit    neither within max_iterations, or before time ran out. solution() is the cheaper of the last
-  //                      iterate and the warm start's inputs among those that are feasible, if one is; else the last
-  //                      iterate. Slightly contradictory rows whose inputs have no hard bounds end like this, too
-  //   kNumericalFailure  data not finite or so large that they overflow, σ < 0, or a factorisation broke down; solution()
-  //                      is meaningless
+  //                      unconstrained optimum, whose own round-off is added)
+  //   kInfeasible        solution()'s multipliers prove that no point is feasible (ProvesInfeasible)
+  //   kIterationLimit    neither was reached within max_iterations or before time ran out. solution() is the last
+  //                      iterate or the trajectory of the warm start's inputs: the cheaper one of those that are
+  //                      feasible, else the last iterate. Slightly contradictory rows whose inputs have no hard bounds
+  //                      end like this, too
+  //   kNumericalFailure  the data are not finite or so large that they overflow, σ < 0, or a factorisation broke down
+  //                      or was too inaccurate; solution() is meaningless
   QpResult Solve(const Qp& qp, const Point* warm_start = nullptr, const TimeLeft* time_left = nullptr);
 
   [[nodiscard]] const Point& solution() const { return point_; }
@@ -57,7 +58,7 @@ class OcpQpSolver {
   ActiveSetMethod<kNx, kNu> active_set_;
   InteriorPointMethod<kNx, kNu> interior_point_;
   Point point_;
-  Point roll_out_;  // of a warm start
+  Point roll_out_;  // trajectory of a warm start's inputs
 };
 
 template <int kNx, int kNu>

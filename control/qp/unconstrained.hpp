@@ -1,8 +1,9 @@
-// The optimum of an OcpQp without its rows, by one Riccati recursion, and the factors that the active set's sweeps use.
+// The unconstrained optimum of an OcpQp (the optimum without its rows), by one Riccati recursion, and the factors that
+// the active set's sweeps use.
 //
-// About this optimum the cost is purely quadratic and the dynamics have no constant:
+// In deviations from this optimum the cost is purely quadratic and the dynamics have no constant:
 //   min Σ ½ xᵀQx + ½ uᵀRu + Σ_soft ½ρε² + σε   s.t.  x_0 = 0, x' = A x + B u,  lo − ε ≤ C x + D u ≤ hi + ε
-// with shifted bounds (shifted_bounds.hpp). The methods that follow work on these deviations, so positions of hundreds
+// with shifted bounds (shifted_bounds.hpp). The other methods work on these deviations, so that positions of hundreds
 // of metres cost no digits.
 #pragma once
 
@@ -37,9 +38,9 @@ class Unconstrained {
         riccati_(stages_.size()),
         gradients_(stages_.size()) {}
 
-  // False if no optimum is found whose stationarity holds to the tolerance. Does not allocate.
+  // False if no optimum is found that is stationary to the tolerance. Does not allocate.
   [[nodiscard]] bool Solve(const Qp& qp, double tolerance);
-  // Computes the closed loop of each stage, which sweeps need. After Solve.
+  // Computes the closed loop of each stage, which sweeps need. Must follow Solve.
   void CloseLoop(const Qp& qp);
   // Writes x, u, π, and zero for all multipliers and slacks.
   void Write(const Qp& qp, Point& point) const;
@@ -78,8 +79,8 @@ bool Unconstrained<kNx, kNu>::Solve(const Qp& qp, double tolerance) {
   return (Factorise(qp) && accurate()) || (FactoriseSafely(qp) && accurate());
 }
 
-// The recursion in its usual form, P = Q + AᵀP'A − H_xu H_uu⁻¹ H_ux, in which P waits for K at its very end. It costs
-// half of FactoriseRiccati, but its difference loses the digits of dynamics that grow by much over the horizon.
+// The recursion in its usual form, P = Q + AᵀP'A − H_xu H_uu⁻¹ H_ux, in which only the last term of P waits for K. It
+// costs half as much as FactoriseRiccati, but its difference loses digits if the dynamics grow much over the horizon.
 template <int kNx, int kNu>
 bool Unconstrained<kNx, kNu>::Factorise(const Qp& qp) {
   using detail::Product;
@@ -132,7 +133,7 @@ bool Unconstrained<kNx, kNu>::FactoriseSafely(const Qp& qp) {
   return true;
 }
 
-// x, u, π of the optimal inputs.
+// Computes x, u, π of the optimal inputs.
 template <int kNx, int kNu>
 void Unconstrained<kNx, kNu>::RollOut(const Qp& qp) {
   using detail::Product;

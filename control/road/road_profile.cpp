@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control/road/projection.hpp"
 
@@ -83,20 +82,6 @@ RouteProjection RoadProfile::Project(const Eigen::Vector2d& position, double hin
   const double s = static_cast<double>(k) * spacing_ + ahead / stretch;
   const RoutePoint foot = At(s);
   return {.s = s, .lateral = OffsetFrom(Position(foot), foot.psi, position).left};
-}
-
-RouteProjection RoadProfile::Find(const Eigen::Vector2d& position, double psi) const {
-  constexpr double kAsGood = 1.0;  // [m]
-  double least = std::numeric_limits<double>::infinity();
-  const auto along = [&](const RoutePoint& point) { return std::cos(point.psi - psi) > 0.0; };
-  for (const RoutePoint& point : points_) {
-    if (along(point)) least = std::min(least, (position - Position(point)).norm());
-  }
-  const auto first = std::ranges::find_if(points_, [&](const RoutePoint& point) {
-    return along(point) && (position - Position(point)).norm() < least + kAsGood;
-  });
-  const auto k = first == points_.end() ? 0 : first - points_.begin();
-  return Project(position, static_cast<double>(k) * spacing_);
 }
 
 }  // namespace control

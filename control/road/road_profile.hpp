@@ -34,10 +34,6 @@ class RoadProfile {
   [[nodiscard]] RoutePoint At(double s) const;
   // The nearest point of the road profile, by local search from s = `hint`.
   [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position, double hint) const;
-  // The nearest point of the whole road profile among those whose heading differs from `psi` by less than π/2. Of
-  // several within 1 m of the least distance it is the first, so that a circuit begins with its first lap. It is too
-  // slow for every cycle.
-  [[nodiscard]] RouteProjection Find(const Eigen::Vector2d& position, double psi) const;
 
  private:
   std::vector<RoutePoint> points_;  // at k spacing_

@@ -9,6 +9,7 @@ namespace control {
 struct RoutePlace {
   bool on_route = false;  // between the road's edges and heading along it; otherwise the rest is meaningless
   int nearest = 0;        // sample beside the vehicle
+  double s = 0.0;         // arc length of the route at that sample [m]
   std::int64_t due =
       0;  // sample at which the vehicle would be, had it kept to the reference's times since engagement
   int samples = 0;       // of the route

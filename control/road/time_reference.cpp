@@ -1,5 +1,6 @@
 #include "control/road/time_reference.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -7,7 +8,7 @@
 namespace control {
 
 TimeReference::TimeReference(std::span<const Eigen::Vector2d> points, double t_s)
-    : z_(points.size()), t_s_(t_s) {
+    : z_(points.size()), s_(points.size(), 0.0), t_s_(t_s) {
   if (!(t_s > 0.0))
     throw std::invalid_argument("reference: t_s = " + std::to_string(t_s) + " must be positive");
   if (points.size() < 2) throw std::invalid_argument("reference: needs at least two points");
@@ -23,6 +24,7 @@ TimeReference::TimeReference(std::span<const Eigen::Vector2d> points, double t_s
       throw std::invalid_argument("reference: points " + std::to_string(k) + " and " + std::to_string(k + 1) +
                                   " coincide");
     }
+    s_[k + 1] = s_[k] + step.norm();
     const double psi = std::atan2(step.y(), step.x());
     State& z = z_[k];
     z[kX] = points[k].x();
@@ -47,6 +49,12 @@ State TimeReference::At(int k) const {
     z[kY] += distance * std::sin(z[kPsi]);
   }
   return z;
+}
+
+double TimeReference::ArcLength(int k) const {
+  const int last = size() - 1;
+  const double beyond = std::max(k - last, 0) * t_s_ * z_.back()[kUpsilon];
+  return s_[static_cast<std::size_t>(std::min(k, last))] + beyond;
 }
 
 void TimeReference::Window(int k, std::span<State> out) const {

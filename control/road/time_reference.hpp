@@ -26,11 +26,14 @@ class TimeReference {
 
   // z_ref of step k; past the end, the last state continues straight at its speed.
   [[nodiscard]] State At(int k) const;
+  // Length of the path to the point of step k, as the sum of its chords [m].
+  [[nodiscard]] double ArcLength(int k) const;
   // Writes z_ref of steps k, k+1, ... to `out`.
   void Window(int k, std::span<State> out) const;
 
  private:
   std::vector<State> z_;
+  std::vector<double> s_;  // [m]
   double t_s_;
 };
 

@@ -26,10 +26,10 @@ struct Named {
 
 struct Line {
   int instances = 0, solved = 0, infeasible = 0, failed = 0;
-  std::array<int, 3> by_method{};  // control::QpMethod
-  double iterations = 0.0;         // of all instances
+  std::array<int, 3> by_method{};  // counts by control::QpMethod
+  double iterations = 0.0;         // sum over all instances
   double largest_kkt = 0.0;
-  Times solve, build_solve;  // the solve alone; and the problem built first
+  Times solve, build_solve;  // without and with building the problem
 };
 
 std::map<int, std::vector<Named>> ReadFolder(const std::filesystem::path& folder) {
@@ -57,7 +57,7 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
   Solver solver(horizon);
   control::OcpQp<8, 2> qp(horizon);
   control::OcpQpPoint<8, 2> before(horizon);
-  std::string series;  // of `before`; empty: there is none
+  std::string series;  // of `before`; empty if there is no warm start
   Line line;
   for (const Named& named : all) {
     const control::OcpQpPoint<8, 2>* guess = warm && series == named.series ? &before : nullptr;

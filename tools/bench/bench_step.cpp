@@ -29,7 +29,7 @@ struct Samples {
   std::int64_t unsolved = 0;
 };
 
-// One drive of the plant with the controller, no frames: only the control step is timed.
+// Drives the plant with the controller directly, without frames; only the control step is timed.
 void Drive(const sim::Scenario& scenario, const loop::Config& config, const control::TimeReference& reference,
            const config::RouteFile& route, Samples& samples) {
   const int horizon = loop::HorizonOf(config);
@@ -41,7 +41,11 @@ void Drive(const sim::Scenario& scenario, const loop::Config& config, const cont
   for (int k = 0; k + horizon < reference.size(); ++k) {
     const control::Plan* step = nullptr;
     samples.times.Measure([&] {
-      const control::RoutePlace place{.on_route = true, .nearest = k, .due = k, .samples = reference.size()};
+      const control::RoutePlace place{.on_route = true,
+                                      .nearest = k,
+                                      .s = reference.ArcLength(k),
+                                      .due = k,
+                                      .samples = reference.size()};
       step = &controller->Step(
           {.z = plant.state(), .u_previous = u, .place = place, .obstacles = scenario.obstacles});
     });
@@ -58,7 +62,7 @@ void Drive(const sim::Scenario& scenario, const loop::Config& config, const cont
   }
 }
 
-// The slope of the straight line through (log N, log median) by least squares.
+// The slope of the least-squares line through the points (log N, log median).
 double Exponent(const std::vector<int>& horizons, const std::vector<double>& medians) {
   const auto count = static_cast<Eigen::Index>(horizons.size());
   Eigen::MatrixX2d line(count, 2);

@@ -10,15 +10,16 @@ namespace tools {
 
 struct BenchStepOptions {
   std::filesystem::path scenario;
-  std::filesystem::path config;  // of the daemon; empty: the one that the scenario names
-  std::string controller;        // empty: the configuration's
+  std::filesystem::path config;  // of the daemon; empty: the one named by the scenario
+  std::string controller;        // empty: that of the configuration
   std::vector<int> horizons{8, 15, 40, 80, 200};
   int repeat = 5;  // drives per horizon
   bool json = false;
 };
 
-// Writes median, p99 and maximum in µs and the mean of the solver's iterations for each horizon, and of several the
-// exponent of N with which the median grows. Throws one line at bad input, before anything is written.
+// Writes median, p99 and maximum [µs], the mean of the solver's iterations and the number of unsolved steps for each
+// horizon; with several horizons, also the exponent p of median ~ N^p. On bad input, throws an exception with a
+// one-line message before anything is written.
 void BenchStep(const BenchStepOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -23,12 +23,12 @@ constexpr int kMostSteps = 1000;
 constexpr double kAbsent = 1e19;
 constexpr std::string_view kSigma = "sigma";
 
-// Words and the lines that they stand in.
+// Splits a file into words and counts its lines.
 class Words {
  public:
   explicit Words(const std::filesystem::path& file) : file_(file), text_(config::ReadTextFile(file)) {}
 
-  // Empty at the end.
+  // The next word; empty at the end of the file.
   std::string_view Next() {
     constexpr std::string_view kSpace = " \t\r\n";
     while (at_ < text_.size() && kSpace.find(text_[at_]) != std::string_view::npos)
@@ -63,7 +63,7 @@ class Words {
   int line_ = 1;
 };
 
-// Takes numbers one after the other.
+// Reads numbers in sequence.
 class Numbers {
  public:
   explicit Numbers(std::span<const double> numbers) : at_(numbers.data()) {}

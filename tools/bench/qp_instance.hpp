@@ -1,11 +1,11 @@
 // A controller's quadratic problem as text, numbers separated by white space:
-//   N nx nu                            with the word "sigma" before, where rows have σ
+//   N nx nu                            preceded by the word "sigma" if the rows have σ
 //   x_0
 //   A_i B_i c_i                        i = 0..N−1, row-major
 //   Q_i q_i                            i = 0..N, Q_i its diagonal
 //   R_i r_i                            i = 0..N−1, R_i its diagonal
-//   n_i, and n_i times C D lo hi ρ     i = 0..N; with σ at the end, where rows have it
-// A bound beyond ±1e19 is absent; ρ < 0 marks a hard row. For the symbols see control/qp/problem.hpp.
+//   n_i, and n_i times C D lo hi ρ     i = 0..N; followed by σ if the rows have it
+// A bound beyond ±1e19 is absent; ρ < 0 marks a hard row. control/qp/problem.hpp explains the symbols.
 #pragma once
 
 #include <filesystem>
@@ -16,25 +16,26 @@
 
 namespace tools {
 
-// The numbers of a file, of which a problem can be built again and again.
+// The numbers of a file, from which a problem can be built repeatedly.
 class QpInstance {
  public:
-  // Throws std::runtime_error "FILE:LINE: what is wrong": unreadable, not a number, a number too few or too many, not 8
-  // states and 2 inputs, N outside 1..1000, more rows in a step than there is room for.
+  // Throws std::runtime_error "FILE:LINE: what is wrong" if the file is unreadable, contains a word that is not a
+  // number, too few or too many numbers, has other than 8 states and 2 inputs, N outside 1..1000, or more rows in a
+  // step than control::kMaxRows.
   explicit QpInstance(const std::filesystem::path& file);
 
   [[nodiscard]] int horizon() const { return horizon_; }
-  // Into a problem of the same horizon. Does not allocate.
+  // `qp` must have the same horizon. Does not allocate.
   void Build(control::OcpQp<8, 2>& qp) const;
   [[nodiscard]] control::OcpQp<8, 2> Build() const;
 
  private:
   bool sigma_ = false;
   int horizon_ = 0;
-  std::vector<double> numbers_;  // all after N nx nu
+  std::vector<double> numbers_;  // everything after N nx nu
 };
 
-// With all digits, so that it reads back the same.
+// Writes all digits, so that the problem reads back unchanged.
 void WriteQpInstance(const control::OcpQp<8, 2>& qp, std::ostream& out);
 
 }  // namespace tools

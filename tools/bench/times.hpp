@@ -1,4 +1,4 @@
-// Times of one kind, in µs, and what is told of them.
+// Measured times of one kind [µs] and their statistics.
 #pragma once
 
 #include <algorithm>

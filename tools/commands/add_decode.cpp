@@ -17,7 +17,7 @@ int Decode(const std::string& log) {
     return RunDecode(file, log, std::cout, std::cerr);
   }
   const int status = RunDecode(std::cin, "standard input", std::cout, std::cerr);
-  // std::cin ends at an error as at the end of its input.
+  // std::cin does not distinguish a read error from the end of its input.
   if (std::ferror(stdin) != 0) throw std::runtime_error("standard input: cannot be read");
   return status;
 }

@@ -1,4 +1,4 @@
-// The commands of lpvmpc, each with its options and what it does.
+// The commands of lpvmpc, each with its options and its action.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,12 @@ namespace tools {
 
 struct Command {
   CLI::App* app = nullptr;
-  std::function<int()>
-      run;  // exit status; throws CLI::ParseError if an option is missing, or one line at bad input
+  // Returns the exit status. Throws CLI::ParseError if an option is missing; an exception with a one-line message on
+  // bad input.
+  std::function<int()> run;
 };
 
-// Each adds a command to the program, with its options; of a command with commands of its own these come first.
+// Each adds a command and its options to the program. Subcommands precede their command in the returned list.
 [[nodiscard]] Command AddRun(CLI::App& program);
 [[nodiscard]] Command AddDecode(CLI::App& program);
 [[nodiscard]] std::vector<Command> AddBench(CLI::App& program);
@@ -26,14 +27,14 @@ struct Command {
 [[nodiscard]] std::vector<Command> AddSweep(CLI::App& program);
 [[nodiscard]] Command AddReport(CLI::App& program);
 
-// What several of them share.
+// Helpers that several commands share.
 
-// CLI11's own check of a required option would hide an unknown one.
+// Throws CLI::RequiredError if `option` was not given. CLI11's own check of required options would hide an unknown one.
 void RequireOption(const CLI::App& command, const char* option);
-// "--speed LO HI" and "--mu LO HI" into `ranges`, which must outlive the command.
+// Adds "--speed LO HI" and "--mu LO HI", which set `ranges`; `ranges` must outlive the command.
 void AddRanges(CLI::App& command, ScenarioRanges& ranges);
 [[nodiscard]] CLI::Range Seeds();
-// The project's scenarios beside the program: in the folder of a build as where it is installed.
+// The project's scenarios, found relative to the program, both in a build folder and in an installation.
 [[nodiscard]] std::filesystem::path Scenarios(const char* part);
 [[nodiscard]] std::string ControllerList();
 [[nodiscard]] int Processors();

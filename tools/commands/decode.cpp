@@ -20,7 +20,7 @@ std::string Decimal(double value, int decimals) {
   return text;
 }
 
-// Decimals that show every step of the signal, at most nine.
+// The number of decimals that resolves every step of the signal, at most nine.
 int Decimals(const dbc::Signal& signal) {
   int decimals = 0;
   const auto is_whole = [](double value) { return std::abs(value - std::round(value)) < 1e-6; };
@@ -53,7 +53,7 @@ class Decoder {
     return text;
   }
 
-  // Why the frame cannot be one of ours; empty if it can.
+  // The reason why the frame does not belong to vehicle.dbc; empty if it does.
   [[nodiscard]] std::string Strangeness(const can::Frame& frame) const {
     if (frame.kind == can::FrameKind::kError) return "error frame";
     const bus::MessageInfo* info = frame.extended ? nullptr : bus_.Find(frame.id);
@@ -94,7 +94,7 @@ class Decoder {
   }
 
   bus::VehicleBus bus_;
-  // Of the last frame with a good CRC of each interface and id.
+  // The counter of the last frame with a good CRC, for each interface and id.
   std::map<std::pair<std::string, std::uint32_t>, std::uint8_t> counters_;
 };
 

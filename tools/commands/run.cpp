@@ -54,7 +54,8 @@ void WriteDriveFileOf(const RunOptions& options, const Task& task) {
   }
 }
 
-// Writes each problem into a file of its own, numbered in order.
+// Writes each problem to its own file, numbered in order. Throws std::invalid_argument if `folder` already holds
+// problems.
 control::QpObserver Recorder(const std::filesystem::path& folder) {
   if (std::filesystem::is_directory(folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -83,7 +84,7 @@ int Run(const RunOptions& options, std::ostream& out) {
   ClosedLoopHooks hooks;
   if (!log_file.empty()) {
     hooks.frame = [&](const can::Frame& frame) {
-      // Not before all input proved good: a log that stands there is not lost to a slip of the pen.
+      // The log is opened only after all input was validated: a mistyped option does not overwrite an existing log.
       if (!log.is_open()) {
         if (out_folder) MakeFolder(options.out);
         log.open(log_file);
@@ -100,7 +101,7 @@ int Run(const RunOptions& options, std::ostream& out) {
     throw std::runtime_error(log_file.string() + ": cannot be written: " + std::strerror(errno));
   }
   if (out_folder) {
-    std::filesystem::remove(options.out / "report.json");  // of another run, which the report would show
+    std::filesystem::remove(options.out / "report.json");  // an old report.json would be shown instead
     WriteFile(options.out / "summary.json", sim::ToJson(summary));
     WriteDriveFileOf(options, task);
     Report({.run_dir = options.out, .output = options.out / "report.html"});

@@ -26,7 +26,7 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& 
         fmt::format("the configuration's cycle.period = {} must be {} s, the simulated vehicle's",
                     std::chrono::duration<double>(config.loop.period).count(), sim::kCycleTime));
   }
-  loop::Config untimed = config;  // what a computer takes for a step must not change the drive
+  loop::Config untimed = config;  // the computer's speed must not change the drive
   untimed.loop.deadline = base::Time::max();
   const auto make = [&](const loop::Config& of, const loop::Road& road) {
     std::unique_ptr<control::Controller> law = tools::MakeController(of, road);

@@ -1,6 +1,5 @@
-// The daemon's control loop and the virtual vehicle joined by frames in memory: no bus, no clock, no sleep.
-// It passes the frames on in the order of a lock-step run on a bus, so both give the same commands, bit for
-// bit.
+// The daemon's control loop and the virtual vehicle, connected by frames in memory: no bus, no clock, no sleep. Frames
+// are passed on in the order of a lock-step run on a bus, so both give the same commands bit for bit.
 #pragma once
 
 #include <functional>
@@ -19,18 +18,18 @@ struct ClosedLoopHooks {
   std::function<void(const can::Frame&)> frame = nullptr;
   // Called after every step of the controller.
   std::function<void(const StepObservation&)> step = nullptr;
-  // Called with every quadratic problem before it is solved. The controller must be one that solves them.
+  // Called with every quadratic problem before it is solved. Requires a controller that solves quadratic problems.
   control::QpObserver qp = nullptr;
-  // Asked after every cycle: true ends the drive there.
+  // Called after every cycle; true ends the drive.
   std::function<bool()> stop = nullptr;
 };
 
-// Drives the scenario to its end. Throws one line, before anything is driven: std::runtime_error if a file of the
-// configuration is missing or wrong, std::invalid_argument if its period is not the vehicle's, or if `hooks.qp` is set for
-// a controller that solves no quadratic problem.
+// Drives the scenario to its end. Throws before anything is driven: std::runtime_error if a file of the configuration
+// is missing or wrong; std::invalid_argument if its period is not the vehicle's, or if `hooks.qp` is set for a
+// controller that solves no quadratic problem. The message is one line.
 [[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& config,
                                            const ClosedLoopHooks& hooks = {});
-// With a route of the caller's instead of the configuration's file.
+// Drives with the given route instead of the configuration's route file.
 [[nodiscard]] sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& config,
                                            const config::RouteFile& route, const ClosedLoopHooks& hooks = {});
 

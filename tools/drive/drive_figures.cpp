@@ -13,7 +13,7 @@
 namespace tools {
 namespace {
 
-// The point of the reference beside the vehicle; before its first point and after its last one, on straight on.
+// The reference's point beside the vehicle; the reference is extended straight beyond its first and last points.
 control::State Beside(const control::State& z, std::span<const control::State> reference) {
   control::State beside = reference.front();
   for (std::size_t i = 0; i + 1 < reference.size(); ++i) {
@@ -21,14 +21,14 @@ control::State Beside(const control::State& z, std::span<const control::State> r
     const Eigen::Vector2d way = control::Position(reference[i + 1]) - from;
     if (way.squaredNorm() < 1e-6) break;
     const double share = (control::Position(z) - from).dot(way) / way.squaredNorm();
-    if (i > 0 && share < 0.0) break;  // round a corner's outside
+    if (i > 0 && share < 0.0) break;  // on the outside of a corner
     beside = reference[i] + share * (reference[i + 1] - reference[i]);
     if (share <= 1.0) break;
   }
   return beside;
 }
 
-// Of the inputs that were applied, seen as the next step's u_{k−1}.
+// Accumulates the figures of a drive. The applied input is observed as u_{k−1} of the next step.
 class Meter {
  public:
   Meter(const CostWeights& weights, double t_s, const control::Route& route)

@@ -1,9 +1,9 @@
-// drive.toml: what a recorded drive was driven with, so that it can be shown and driven again.
+// drive.toml: the inputs of a recorded drive, so that it can be shown and driven again.
 //
-//   scenario = "…", config = "…"        files, relative paths relative to this one
-//   controller = "…"                    if it was not the configuration's
+//   scenario = "…", config = "…"        files; relative paths are relative to this file
+//   controller = "…"                    optional; replaces that of the configuration
 //
-// or, of a scenario of a sweep,
+// or, for a scenario of a sweep,
 //
 //   sweep_seed = …, speed = [LO, HI], mu = [LO, HI], controller = "…"
 #pragma once
@@ -25,10 +25,10 @@ struct DriveFile {
   config::RouteFile road;
 };
 
-// Throws config::ConfigError with file, line and key: the file, or one that it names, is missing or wrong.
+// Throws config::ConfigError with file, line and key if the file, or one that it names, is missing or wrong.
 [[nodiscard]] DriveFile LoadDriveFile(const std::filesystem::path& file);
 
-// Write drive.toml into the folder of a run. Throw std::runtime_error: it cannot be written.
+// Both write drive.toml into the folder of a run and throw std::runtime_error if it cannot be written.
 void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem::path& scenario,
                     const std::filesystem::path& config, const std::string& controller);
 void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed,

@@ -80,14 +80,14 @@ void DriveRecorder::Take(const can::Frame& frame) {
   }
 }
 
-// In whatever order its three messages came.
+// Adds a sample once all three messages of a state set have been received, in any order.
 void DriveRecorder::AddSampleIfWhole(std::uint8_t counter, can::Time time) {
   if (part_.pose != counter || part_.motion != counter || part_.feedback != counter) return;
   part_ = {};
   std::int64_t cycle = 0;
   if (last_) {
     const int passed = (counter + dbc::kCounterModulus - last_->counter) % dbc::kCounterModulus;
-    // Whole turns of the counter are seen by the time alone. In lock step time runs faster than the cycles: none.
+    // Only the time reveals whole turns of the counter. A lock-step run is faster than real time: no turns are counted.
     const double silence = std::chrono::duration<double>(time - last_->time).count() / record_.t_s;
     const auto turns = std::max(0L, std::lround((silence - passed) / dbc::kCounterModulus));
     if (passed == 0 && turns == 0) return;  // repeated
@@ -101,14 +101,14 @@ void DriveRecorder::AddSampleIfWhole(std::uint8_t counter, can::Time time) {
   status_told_ = health_told_ = plan_wanted_ = false;
 }
 
-// Told after the obstacle's position: with it the way back to cycle 0 is known.
+// The motion follows the obstacle's position; the velocity allows moving the position back to cycle 0.
 void DriveRecorder::TakeMotion(const bus::ObstacleMotion& motion) {
   const int id = motion.object_id;
   const auto obstacle = std::ranges::find(record_.obstacles, id, &control::Obstacle::id);
   if (obstacle == record_.obstacles.end() || std::ranges::find(moving_told_, id) != moving_told_.end())
     return;
   moving_told_.push_back(id);
-  // Obstacles are told ahead of the state set of their cycle.
+  // Obstacles are sent before the state set of their cycle.
   const double t = record_.samples.empty() ? 0.0 : record_.Time(record_.samples.back()) + record_.t_s;
   obstacle->velocity_X = motion.velocity_X;
   obstacle->velocity_Y = motion.velocity_Y;

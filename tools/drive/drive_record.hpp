@@ -1,4 +1,4 @@
-// A drive as the bus tells it: what report pages show, read from the frames of a log or of a drive in memory.
+// A drive as recorded on the bus, for report pages: decoded from the frames of a log or of a drive in memory.
 #pragma once
 
 #include <cstddef>
@@ -14,56 +14,56 @@ namespace tools {
 
 // One state set with the controller's answer to it.
 struct DriveSample {
-  std::int64_t cycle = 0;  // from 0; state sets that were lost leave gaps
+  std::int64_t cycle = 0;  // from 0; lost state sets leave gaps
   control::State z = control::State::Zero();
-  control::Input u = control::Input::Zero();  // actuators, as measured
-  bus::ControllerStatus status;               // none told: mode Init
+  control::Input u = control::Input::Zero();  // measured actuator values
+  bus::ControllerStatus status;               // mode Init if none was received
   bus::SchedulingHealth health;
-  std::vector<Eigen::Vector2d> plan;  // planned positions of steps 0..N; empty if no plan was told
+  std::vector<Eigen::Vector2d> plan;  // planned positions of steps 0..N; empty if no plan was received
 };
 
 struct DriveRecord {
-  double t_s = 0.05;  // of a cycle [s]
+  double t_s = 0.05;  // duration of a cycle [s]
   std::vector<DriveSample> samples;
-  std::vector<control::Obstacle> obstacles;  // each as told first, its position moved back to cycle 0
+  std::vector<control::Obstacle> obstacles;  // as first received, positions moved back to cycle 0
 
   [[nodiscard]] double Time(const DriveSample& sample) const {
     return t_s * static_cast<double>(sample.cycle);
   }
-  // From the vehicle to the obstacle's centre at that time [m].
+  // Distance from the vehicle to the obstacle's centre at the sample's time [m].
   [[nodiscard]] double Distance(const DriveSample& sample, const control::Obstacle& obstacle) const;
 };
 
-// A record that fills less of a page: one sample in four, but all those near an obstacle and all whose problem was not
-// solved. Plans stay near obstacles alone.
+// A smaller record for a page: one sample in four, plus all within 25 m of an obstacle and all whose problem was not
+// solved. Plans are kept only near obstacles.
 [[nodiscard]] DriveRecord Thinned(const DriveRecord& record);
 
-// The greatest distance between where two plans that follow on each other see the vehicle at the same time [m]; 0 where
-// there are no two.
+// The greatest distance between the positions that the plans of two consecutive cycles predict for the same time [m]; 0
+// if there are no such plans.
 [[nodiscard]] double LargestPlanChange(const DriveRecord& record);
 
-// Index of the sample that was answered by control step `step`, counted from 0; the last one if there is none. The
-// record must hold a sample.
+// Index of the sample that control step `step`, counted from 0, answered; the last sample if there is none. The record
+// must not be empty.
 [[nodiscard]] std::size_t SampleOfStep(const DriveRecord& record, int step);
 
-// Samples from..to (indices) of it alone, as far as there are.
+// Only the samples with indices from..to, as far as they exist.
 [[nodiscard]] DriveRecord Excerpt(const DriveRecord& record, std::size_t from, std::size_t to);
 
 class DriveRecorder {
  public:
-  // `bus` must outlive the recorder; its state sets come every `t_s` [s].
+  // `bus` must outlive the recorder; it carries a state set every `t_s` [s].
   DriveRecorder(const bus::VehicleBus& bus, double t_s) : bus_(&bus) { record_.t_s = t_s; }
 
-  // A frame that is not of the bus, or fails its check, is passed over, and so is a state set that is repeated. Cycles
-  // are counted by the counter of the state sets, and after a long silence by the time stamps.
+  // Ignores frames that are not of the bus or fail their check, and repeated state sets. Cycles are counted by the
+  // counter of the state sets, and after a long silence by the time stamps.
   void Take(const can::Frame& frame);
 
   [[nodiscard]] const DriveRecord& record() const { return record_; }
 
  private:
-  // Of the state set that is on its way.
+  // The counters of the messages received so far of an incomplete state set.
   struct StatePart {
-    std::optional<std::uint8_t> pose, motion, feedback;  // counters
+    std::optional<std::uint8_t> pose, motion, feedback;
   };
   struct LastSet {
     std::uint8_t counter;
@@ -81,10 +81,10 @@ class DriveRecorder {
   bus::VehicleFeedback feedback_;
   StatePart part_;
   std::optional<LastSet> last_;
-  std::vector<int> moving_told_;  // ids of the obstacles whose motion was told
-  bool status_told_ = false;      // of the last sample; a later one answers the timer
+  std::vector<int> moving_told_;  // ids of the obstacles whose motion was received
+  bool status_told_ = false;      // for the last sample; a later status answers the timer
   bool health_told_ = false;
-  bool plan_wanted_ = false;  // the last header is of the last sample's plan
+  bool plan_wanted_ = false;  // the last header belongs to the last sample's plan
 };
 
 }  // namespace tools

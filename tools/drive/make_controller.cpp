@@ -11,8 +11,8 @@ std::unique_ptr<control::Controller> MakeController(const loop::Config& config, 
     const control::MpcSettings& shared = config.mpc;
     control::NmpcSettings settings;
     static_cast<control::MpcSettings&>(settings) = shared;
-    settings.max_cpu_time =
-        1e6;  // what a computer takes for a step must not change the drive: its iterations end it
+    // The computer's speed must not change the drive: only the iteration limit ends a solve.
+    settings.max_cpu_time = 1e6;
     return std::make_unique<control::TimedController>(
         std::make_unique<control::Nmpc>(config.vehicle, settings), road.by_time, road.by_progress.road());
   }

@@ -1,4 +1,5 @@
-// The controller that a configuration names: any of them, also those that no daemon drives by. What `road` refers to outlives it.
+// Makes any controller that a configuration can name, including those that the daemon does not offer. The objects that
+// `road` refers to must outlive the controller.
 #pragma once
 
 #include <memory>

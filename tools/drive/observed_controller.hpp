@@ -1,4 +1,4 @@
-// A controller whose every step is timed and shown to an observer.
+// A controller whose every step is timed and passed to an observer.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct StepObservation {
   const control::ControllerInput& input;
   const control::Plan& plan;
   const control::Controller& controller;
-  double seconds;  // of wall clock that the step took
+  double seconds;  // wall-clock time of the step
 };
 
 class ObservedController final : public control::Controller {

@@ -1,4 +1,4 @@
-// The daemon's configuration that a command drives a scenario with.
+// The daemon's configuration with which a command drives a scenario.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace tools {
 
-// That of `file`, or where this is empty, the one that the scenario, read from `scenario_file`, names. Throws
-// config::ConfigError.
+// Loads `file`, or if it is empty, the configuration named by the scenario, which was read from `scenario_file`. Throws
+// config::ConfigError if neither names a file, or if the file is missing or wrong.
 [[nodiscard]] loop::Config LoadConfigFor(const sim::Scenario& scenario,
                                          const std::filesystem::path& scenario_file,
                                          const std::filesystem::path& file);

@@ -5,9 +5,9 @@
 namespace tools {
 namespace {
 
-// By which a front corner stands out when the vehicle is 0.1 rad askew [m].
+// Lateral displacement of a front corner at a heading error of 0.1 rad [m].
 constexpr double kCornerSwing = 0.2;
-// From a command to its effect, dead time and lag of the steering together: the mean of what is drawn [s].
+// Time from a command to its effect, dead time plus steering lag [s]; the mean of the random scenarios is 0.055 s.
 constexpr double kMeanDelay = 0.05;
 
 std::string DaemonsName(const std::string& controller) {
@@ -29,8 +29,8 @@ loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& rang
   if (!IsPapers(config.controller)) {
     config.loop.command_delay = base::FromSeconds(kMeanDelay);
   }
-  config.service.interface = "vcan0";  // in logs
-  // Vehicles start at 0.9 of the target speed, which may be below what the daemon asks of a driver.
+  config.service.interface = "vcan0";  // the interface's name in logs
+  // Vehicles start at 0.9 to 1.1 times the target speed, which may be below the daemon's minimum for engagement.
   config.loop.engage_min_speed = std::min(config.loop.engage_min_speed, 0.5 * ranges.speed.low);
   return config;
 }

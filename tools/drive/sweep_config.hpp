@@ -1,4 +1,4 @@
-// With what each controller is driven in a sweep.
+// The configuration of each controller in a sweep.
 #pragma once
 
 #include <string>
@@ -11,20 +11,20 @@
 
 namespace tools {
 
-inline constexpr const char* kCostStandard = "nmpc";  // the controller that the others' cost is compared with
-inline constexpr const char* kFixedRadius = "lpv-affine-fixed";  // its trust radius is not adapted
+inline constexpr const char* kCostStandard = "nmpc";             // the reference for the others' cost
+inline constexpr const char* kFixedRadius = "lpv-affine-fixed";  // does not adapt its trust radius
 
-// The daemon's defaults, but for what follows from the ranges and, of a controller that takes the vehicle for a point,
-// from its rectangle: obstacles are enlarged by half its width and what a corner stands out. lpv-affine reckons with the
-// lowest μ of the range and the mean delay, and plans 2 s ahead; the paper's plan 0.4 s ahead as there. "nmpc" is here the
-// one with lpv-affine's problem, nmpc-affine, by which the cost is measured. Throws std::invalid_argument: no such
-// controller.
+// The daemon's defaults, adapted to the ranges. For the paper's controllers, which treat the vehicle as a point,
+// obstacles are also enlarged by half the vehicle's width and the swing of a corner. The affine controllers assume the
+// lowest μ of the range and the mean delay, and plan 2 s ahead; the paper's controllers plan 0.4 s ahead, as in the
+// paper. "nmpc" here means nmpc-affine, the NMPC with lpv-affine's problem, the reference for the cost. Throws
+// std::invalid_argument if there is no such controller.
 [[nodiscard]] loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& ranges);
 
-// The names of those that a sweep drives.
+// The names of the controllers that a sweep can drive.
 [[nodiscard]] std::vector<std::string> SweepControllers();
 
-// Its road: for a point, narrower by the vehicle's width.
+// The controller's road: for one that treats the vehicle as a point, narrower by the vehicle's width.
 [[nodiscard]] config::RouteFile RouteFor(const RandomScenario& drawn, const loop::Config& config);
 
 }  // namespace tools

@@ -25,7 +25,7 @@ struct Child {
 void WriteAll(int file, const std::string& text) {
   for (std::size_t written = 0; written < text.size();) {
     const ssize_t n = write(file, text.data() + written, text.size() - written);
-    if (n < 0 && errno != EINTR) return;  // nobody reads any more
+    if (n < 0 && errno != EINTR) return;  // the reading end is closed
     written += static_cast<std::size_t>(std::max<ssize_t>(n, 0));
   }
 }
@@ -40,7 +40,7 @@ void WriteAll(int file, const std::string& text) {
     text = error.what();
   }
   WriteAll(pipe, text);
-  _exit(good ? 0 : 1);  // nothing of the parent's is flushed or destroyed twice
+  _exit(good ? 0 : 1);  // neither flushes nor destroys the parent's objects a second time
 }
 
 class Children {
@@ -72,7 +72,7 @@ class Children {
     children_.push_back({.pid = pid, .pipe = ends[0], .item = item, .text = {}});
   }
 
-  // Waits until one of them has ended. Throws if it failed.
+  // Waits until a child has ended. Throws std::runtime_error if it failed.
   [[nodiscard]] std::pair<std::size_t, std::string> Next() {
     for (;;) {
       std::vector<pollfd> polls;

@@ -1,4 +1,4 @@
-// A line on a terminal that tells how far a long command has come; silent where stderr is no terminal.
+// A line on a terminal that shows the progress of a long command; silent if stderr is not a terminal.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // What is worked on from now on.
+  // Names the current work, shown from now on.
   void Name(const std::string& name);
-  // One of `total` is done.
+  // Counts one of `total` as done.
   void Advance();
 
  private:

@@ -33,7 +33,7 @@ CircleOutcome Drive(const CircleDrive& drive) {
   config.mpc.horizon = drive.horizon;
   loop::SelectController(config, loop::ControllerName(drive.controller));
   config.loop.send_horizon = false;
-  // The first step that is not solved decides.
+  // The first unsolved step determines the outcome.
   std::optional<CircleOutcome> unsolved;
   const ClosedLoopHooks hooks{
       .step =

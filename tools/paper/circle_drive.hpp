@@ -1,5 +1,5 @@
 // A drive on a circular road past one circular obstacle (paper, Section Results: "a circular road with an obstacle
-// blocking part of the road"), made from the figures that decide how hard it is.
+// blocking part of the road"), built from the parameters that determine its difficulty.
 #pragma once
 
 #include "config/route_file.hpp"
@@ -10,27 +10,27 @@ namespace tools {
 
 struct CircleDrive {
   double speed = 12.0;  // [m/s]
-  double shift = 0.5;   // by which the path has to give way to clear the obstacle, 0 to its diameter [m]
+  double shift = 0.5;   // sideways shift that clears the obstacle, 0 to its diameter [m]
   int horizon = 8;      // N
   loop::ControllerKind controller = loop::ControllerKind::kLpv;
 };
 
-inline constexpr double kCircleRadius = 100.0;        // of the road's reference path [m]
+inline constexpr double kCircleRadius = 100.0;        // radius of the road's reference path [m]
 inline constexpr double kCircleObstacleRadius = 1.0;  // [m]
 inline constexpr double kCircleRoadHalfWidth = 4.0;   // [m]
 
 enum class CircleOutcome {
   kClear,       // every step solved, obstacle not touched, inside the road
-  kMarginal,    // not every step solved, but the first that was not lacked less than kMarginalShortfall
+  kMarginal,    // the first unsolved step is short of an obstacle by less than kMarginalShortfall
   kTouch,       // every step solved, obstacle touched
   kOffRoad,     // every step solved, off the road
-  kInfeasible,  // any other step not solved, or the end not reached
+  kInfeasible,  // another step unsolved, or the end not reached
 };
 
-// Of a constraint [m]: a tenth of the margin by which controllers see obstacles enlarged.
+// Shortfall of an obstacle constraint [m]: a tenth of the margin by which controllers enlarge obstacles.
 inline constexpr double kMarginalShortfall = 0.01;
 
-// A left bend of 12 s, the obstacle after 7 s, to be passed on the left; everything else by default.
+// Drives a left bend of 12 s with the obstacle after 7 s, to be passed on the left; everything else is the default.
 [[nodiscard]] CircleOutcome Drive(const CircleDrive& drive);
 
 }  // namespace tools

@@ -13,11 +13,11 @@ namespace {
 
 struct Published {
   const char* name;
-  int weights;  // number of lpv-N.toml and nmpc-N.toml
+  int weights;  // N of lpv-N.toml and nmpc-N.toml
   StepTimes nmpc, lpv;
 };
 
-// The paper's tables [s].
+// The times in the paper's tables [s].
 constexpr std::array<Published, kComparisons> kPublished{{
     {.name = "tracking-1",
      .weights = 1,

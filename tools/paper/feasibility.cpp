@@ -28,7 +28,7 @@ FeasibilityDrive Drive(const sim::Scenario& scenario, loop::Config config, const
           .largest_plan_change = LargestPlanChange(before)};
 }
 
-// Of a circle beside the route.
+// The sideways shift of the route that clears a circle beside it [m].
 double Shift(const control::Route& route, const control::Obstacle& obstacle) {
   const double lateral = route.Project({obstacle.X, obstacle.Y}).lateral;
   return obstacle.r_x + (obstacle.side == control::PassingSide::kLeft ? lateral : -lateral);

@@ -1,5 +1,5 @@
-// The paper's first comparison (fig. LPV_comparison): ten drives on a circular road past an obstacle, by the standard
-// LPVMPC and by the one with the scheduling trust region, all else equal.
+// The paper's first comparison (fig. LPV_comparison): ten drives on a circular road past an obstacle, with the standard
+// LPVMPC and with the LPVMPC with scheduling trust region, all else equal.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ struct FeasibilityDrive {
   DriveRecord record;
   loop::Config config;
 
-  double largest_plan_change = 0.0;  // before the first infeasible step, if there is one [m]
+  double largest_plan_change = 0.0;  // before the first unsolved step, if there is one [m]
 
   [[nodiscard]] bool feasible() const { return !figures.first_failure && figures.summary.completed; }
 };
@@ -26,15 +26,15 @@ struct FeasibilityRow {
   std::string number;  // "01"
   std::string description;
   double speed = 0.0;  // [m/s]
-  double shift = 0.0;  // by which the path has to give way to clear the obstacle [m]
+  double shift = 0.0;  // sideways shift of the path that clears the obstacle [m]
   config::RouteFile road;
   FeasibilityDrive standard, trust_region;
 };
 
 inline constexpr int kFeasibilityScenarios = 10;
 
-// Drives scenarios 01.toml to 10.toml of `folder`, both controllers; the bar goes on by one for each drive. Throws one
-// line: a file is missing or wrong.
+// Drives scenarios 01.toml to 10.toml of `folder` with both controllers; the bar advances by one per drive. Throws an
+// exception with a one-line message if a file is missing or wrong, or if a controller never engages.
 [[nodiscard]] std::vector<FeasibilityRow> CompareFeasibility(const std::filesystem::path& folder,
                                                              ProgressBar& bar);
 

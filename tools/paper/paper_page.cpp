@@ -51,8 +51,8 @@ ordered_json FeasibilitySection(const PaperResult& result) {
        "obstacle itself; controllers see it enlarged by 0.1 m."}};
 }
 
-// The paper's fig. openloop_standard_LPVMPC and openloop_LPVMPC_trust_region, of the first scenario that tells the two
-// controllers apart.
+// The paper's fig. openloop_standard_LPVMPC and openloop_LPVMPC_trust_region, for the first scenario in which the
+// standard LPVMPC fails a step and the other is feasible.
 void AddFans(const PaperResult& result, ordered_json& page) {
   constexpr std::size_t kBefore = 6, kAfter = 4, kAround = 40;  // samples
   const auto row = std::ranges::find_if(result.feasibility, [](const FeasibilityRow& r) {

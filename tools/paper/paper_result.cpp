@@ -18,7 +18,7 @@ bool Clear(const ComparedDrive& drive) {
   return drive.figures.summary.min_clearance_m.value_or(-1.0) >= 0.0;
 }
 
-// What a drive was expected to do by its scenario and did not.
+// "NAME: yes", or the scenario's expectations that the drive did not meet.
 std::string Shortcomings(const char* name, const ComparedDrive& drive) {
   const auto& failed = drive.figures.summary.failed_expectations;
   return fmt::format("{}: {}", name, failed.empty() ? "yes" : fmt::format("{}", fmt::join(failed, ", ")));
@@ -87,7 +87,7 @@ std::string ClearanceText(const DriveFigures& figures) {
 
 std::string PercentText(double share) {
   const double percent = std::round(1000.0 * share) / 10.0;
-  return fmt::format("{:+.1f} %", percent == 0.0 ? 0.0 : percent);  // no minus nought
+  return fmt::format("{:+.1f} %", percent == 0.0 ? 0.0 : percent);  // avoids "-0.0"
 }
 
 }  // namespace tools

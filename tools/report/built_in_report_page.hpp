@@ -1,6 +1,6 @@
-// The page of a report with all scripts and styles inside, and in it once each, title first, where they belong:
-//   @TITLE@  text of the title, as HTML
-//   @DATA@   JSON inside of a script element
+// The page of a report with all scripts and styles inlined. It contains two placeholders, once each, in this order:
+//   @TITLE@  the title's text, as HTML
+//   @DATA@   JSON inside a script element
 #pragma once
 
 #include <string_view>

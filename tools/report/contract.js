@@ -1,4 +1,4 @@
-// What a report must hold (tools/report/report_page.hpp), checked before anything is drawn. Returns the faults, a line each.
+// Checks the report's data (tools/report/report_page.hpp) before anything is drawn. Returns the faults, one line each.
 const seriesNames = ["X", "Y", "psi", "upsilon", "upsilon_ref", "delta", "a", "solve_time", "scheduling_error",
                      "active_rows", "largest_slack", "solved"];
 const obstacleNames = ["X", "Y", "r_x", "r_y", "heading", "margin", "velocity_X", "velocity_Y"];

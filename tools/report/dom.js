@@ -6,7 +6,7 @@ function element(name, attributes, ...children) {
   return made;
 }
 
-// Running text whose numbers stay on a line with what follows them, mostly their unit.
+// Running text with no line break between a number and a short word after it, mostly its unit.
 const unbroken = text => text.replaceAll(" = ", "\u00a0=\u00a0").replace(/(\d) (?=\S{1,5}(\s|$))/g, "$1\u00a0");
 
 // A legend: [{swatch: Element, label, detail}].
@@ -20,7 +20,7 @@ function legend(items) {
   return list;
 }
 
-// A small picture for a legend; `shapes` is SVG in a box of 30 by 14, which takes its colours from page.css.
+// A small picture for a legend; `shapes` is SVG in a box of 30 by 14 and takes its colours from page.css.
 function swatch(shapes) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 30 14");
@@ -34,7 +34,7 @@ function swatch(shapes) {
 const lineSwatch = (name, {dash = "none", width = 2.5} = {}) => swatch(
   `<path d="M0 7H30" fill="none" stroke="var(--${name})" stroke-width="${width}" stroke-dasharray="${dash}"/>`);
 
-// Said where nobody can miss it, and logged. The page that says so is never marked as ready.
+// Shows a fault at the top of the page, which is then not marked as ready.
 function showFault(text) {
   document.querySelector("main").prepend(element("p", {class: "fault", role: "alert"}, text));
 }

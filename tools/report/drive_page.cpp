@@ -26,7 +26,7 @@ DriveRecord ReadLog(const std::filesystem::path& file, const bus::VehicleBus& bu
   std::string line;
   for (long number = 1; std::getline(log, line); ++number) {
     const auto entry = can::ParseCandumpLine(line);
-    if (!entry && log.eof()) break;  // a line that candump had not finished when it was ended
+    if (!entry && log.eof()) break;  // candump was ended within its last line
     if (!entry)
       throw std::runtime_error(fmt::format("{}:{}: {}", config::PlaceName(file), number, entry.error()));
     if (*entry) recorder.Take((*entry)->frame);
@@ -41,7 +41,7 @@ std::string Metres(const ordered_json& value) {
   return value.is_number() ? fmt::format("{:.3f} m", value.get<double>()) : "none";
 }
 
-// Of summary.json (sim/summary.hpp).
+// The result from summary.json (sim/summary.hpp).
 ordered_json SummarySection(const ordered_json& summary) {
   const auto tile = [](const char* label, const std::string& value, const char* verdict = "") {
     return ordered_json{{"label", label}, {"value", value}, {"verdict", verdict}};
@@ -70,7 +70,7 @@ ordered_json SummarySection(const ordered_json& summary) {
   return {{"type", "figures"}, {"title", "Result"}, {"paragraphs", paragraphs}, {"items", items}};
 }
 
-// The predictions as each obstacle comes into the horizon.
+// The predictions at the steps in which each of the first three obstacles enters the horizon.
 ordered_json FansSection(const DriveRecord& record, int horizon) {
   constexpr std::size_t kFans = 3, kBefore = 4, kSteps = 12;
   ordered_json fans = ordered_json::array();

@@ -7,10 +7,11 @@
 
 namespace tools {
 
-// Of a folder with candump.log, drive.toml and, if it is there, summary.json. Throws one line: a file is missing or wrong.
+// `run_dir` holds candump.log, drive.toml and optionally summary.json. Throws an exception with a one-line message if a
+// file is missing or wrong.
 [[nodiscard]] nlohmann::ordered_json DrivePage(const std::filesystem::path& run_dir);
 
-// A JSON file. Throws std::runtime_error with the file and the place of the error.
+// Reads a JSON file. Throws std::runtime_error with the file and the place of the error.
 [[nodiscard]] nlohmann::ordered_json ParseJson(const std::filesystem::path& file);
 
 }  // namespace tools

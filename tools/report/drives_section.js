@@ -1,8 +1,8 @@
-// A section of type "drives": the plane above, once more at each obstacle, the quantities over time below, one cursor
-// for all.
+// A section of type "drives": the plane at the top, again at each obstacle, and the quantities over time below, with
+// one cursor for all.
 
-// The vehicles at the cursor's time `t`, each with its open-loop prediction; without a cursor, where each drive comes
-// nearest to each obstacle.
+// Draws the vehicles at the cursor's time `t`, each with its open-loop prediction; without a cursor, where each drive
+// is nearest to each obstacle.
 function drawVehicles(pen, drives, t) {
   drives.forEach((drive, i) => {
     const own = color(driveColor(i));
@@ -65,7 +65,7 @@ function drivesLegend(drives) {
   ]);
 }
 
-// What of the plane is shown about an obstacle: it, and the drives as far as 14 m from it, a swerve at city speed.
+// The part of the plane shown around an obstacle: it and the drives within 14 m of it, a swerve at city speed.
 function boxAtObstacle(obstacle, drives) {
   const paths = drives.map(drive => {
     const {X, Y} = placedAt(obstacle, drive, closestSample(drive, obstacle));
@@ -75,7 +75,7 @@ function boxAtObstacle(obstacle, drives) {
   return boxAbout([...paths, ...drives.map(drive => extentOf(obstacle, drive))], 1.5);
 }
 
-// The planes of a section: {title, hint, box}, first that of the whole drives, then one for each obstacle.
+// The planes of a section, {title, hint, box} each: first that of the whole drives, then one for each obstacle.
 function planesOf(drives) {
   const obstacles = drives.flatMap(drive => drive.obstacles.map(obstacle => [JSON.stringify(obstacle), obstacle]));
   const extents = drives.flatMap(drive => drive.obstacles.map(obstacle => extentOf(obstacle, drive)));
@@ -106,7 +106,7 @@ function addDrives(report, section, body, index) {
     return mountXyPlot(frame, box, heightFor(box, 560), pen => drawDrives(pen, report, drives, time));
   });
 
-  // Every plot of the section tells the cursor's time; the planes are drawn once a frame.
+  // Every time plot of the section reports the cursor's time; the planes are redrawn at most once per frame.
   let due = false;
   const moved = t => {
     if (t === time) return;

@@ -1,5 +1,4 @@
-// A section of type "fans": side by side, or below one another where they are wide, the open-loop
-// predictions of consecutive steps.
+// A section of type "fans": the open-loop predictions of consecutive steps, side by side, or stacked if they are wide.
 
 function addFans(report, section, body) {
   const ramp = element("span", {class: "ramp"});

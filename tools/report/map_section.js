@@ -1,7 +1,7 @@
-// A section of type "map": what came of each drive, by speed and shift of the obstacle, a grid for each panel.
+// A section of type "map": the outcome of each drive over speed and sideways shift, one grid for each panel.
 
-// The outcomes by rising trouble: the fill darkens (in the dark theme it brightens), and each has a sign of its own, so
-// that neither hue nor colour is needed to tell them apart.
+// The outcomes from best to worst: the fill darkens (in the dark theme it brightens), and each but clear and none
+// has a sign, so that they can be distinguished without colour.
 const outcomes = {
   clear: {label: "clear", sign: null},
   marginal: {label: "short by less than a centimetre", sign: "slash"},
@@ -42,7 +42,7 @@ function drawSign(ctx, sign, ink, x, y, r) {
   ctx.stroke(path);
 }
 
-// A mark stands at its speed and shift, also between the cells.
+// The place of a mark's speed or shift on the grid, interpolated between cells.
 function placeOf(value, grid) {
   const next = grid.findIndex(step => step >= value);
   if (next <= 0) return next < 0 ? grid.length - 1 : 0;
@@ -95,7 +95,7 @@ function mountMap(frame, {speeds, shifts}, {cells}, marks) {
   const decimals = Math.max(...shifts.map(decimalsOf));
   const ticks = (label, side, steps, text) => axis(side, label, {
     splits: (plot, index, min, max) => steps.map((step, i) => i),
-    // As many numbers as fit, at equal distances.
+    // Labels as many steps as fit, at equal distances.
     values: (plot, places) => {
       const each = side === "left" ? 16 : 30;
       const pixels = (side === "left" ? plot.bbox.height : plot.bbox.width) / uPlot.pxRatio;

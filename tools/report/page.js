@@ -1,4 +1,4 @@
-// Builds the page from the report, and draws it anew when the system's scheme changes and for the paper.
+// Builds the page from the report, and redraws it when the system's colour scheme changes and for printing.
 const sectionBuilders = {
   text() {}, figures: addFigures, table: addTable, drives: addDrives, fans: addFans, map: addMap,
 };
@@ -23,7 +23,7 @@ function setPrinting(printing) {
 }
 
 function buildPage() {
-  // Also what goes wrong later, while something is drawn. The browser logs it.
+  // Also catches errors in later drawing. The browser logs them.
   window.addEventListener("error", event => showFault(`The report could not be drawn: ${event.message}`));
   const report = JSON.parse(document.getElementById("report-data").textContent);
   const faults = checkReport(report);
@@ -40,7 +40,7 @@ function buildPage() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
   window.addEventListener("beforeprint", () => setPrinting(true));
   window.addEventListener("afterprint", () => setPrinting(false));
-  // Plots are drawn in microtasks: when a task of its own comes, all are.
+  // Plots are drawn in microtasks, so all are drawn when the next task runs.
   setTimeout(() => {
     document.documentElement.dataset.plots = plots.length;
     if (!document.querySelector(".fault")) document.documentElement.dataset.ready = "1";

@@ -22,7 +22,7 @@ function makePen(plot) {
   }
 
   return {
-    // Everything that `draw` draws is kept inside the plotting area.
+    // Clips everything that `draw` draws to the plotting area.
     clipped(draw) {
       const {left, top, width, height} = plot.bbox;
       ctx.save();
@@ -33,7 +33,7 @@ function makePen(plot) {
       ctx.restore();
     },
 
-    // Where a sample is null the line has a gap.
+    // A null sample leaves a gap in the line.
     line(X, Y, style) {
       const path = new Path2D();
       let down = false;
@@ -74,7 +74,7 @@ function makePen(plot) {
       finish(path, style);
     },
 
-    // The vehicle's rectangle about (X, Y), and a wedge that points ahead; where this would be too small to see, a dot.
+    // The vehicle's rectangle about (X, Y) with a wedge that points ahead; a dot if these would be too small to see.
     vehicle(X, Y, psi, {front, rear, width}, style) {
       if ((front + rear) * pixelsPerMetre < 9 * uPlot.pxRatio) {
         this.dots([X], [Y], 4, {...style, color: color("paper"), fill: style.color});

@@ -1,7 +1,7 @@
-// What all plots share: the figure, the axes, and the register by which they are resized and redrawn.
+// Common parts of all plots: the figure, the axes, and the list of plots to resize and redraw.
 const plots = [];
 
-// A figure with its caption: {figure, host, name, readout}. `hint` tells what the mouse can do.
+// A figure with its caption: {figure, host, title, readout}. `hint` describes what the mouse can do.
 function plotFigure(title, hint = "") {
   const readout = element("span", {class: "readout"});
   const name = element("span", {class: "name"}, title);
@@ -10,7 +10,7 @@ function plotFigure(title, hint = "") {
   return {figure: element("figure", {}, element("figcaption", {}, name, readout), host), host, title, readout};
 }
 
-// Makes the uPlot of a figure that stands in the document already. `height(width)` in CSS pixels; `resized` is called
+// Creates the uPlot of a figure that is already in the document. `height(width)` is in CSS pixels; `resized` is called
 // after every change of size.
 function mountPlot({host, title}, options, data, height, resized = () => {}) {
   const width = host.clientWidth;
@@ -26,17 +26,17 @@ function mountPlot({host, title}, options, data, height, resized = () => {}) {
     });
   };
   plots.push({plot, fit});
-  // Not at once: a size that changes within its observer would have to be observed again.
+  // Deferred, because a size that changes within its observer would trigger the observer again.
   new ResizeObserver(() => requestAnimationFrame(fit)).observe(host);
   return plot;
 }
 
-// Called when the colours have changed, for what is drawn on a canvas of its own.
+// Functions that redraw canvases outside the plots after the colours have changed.
 const onThemeChange = [];
 
 const axisFont = font(12);
 
-// Room of an axis in CSS pixels. Fixed, so that plots below one another line up and an aspect ratio can be kept.
+// Room of the axes in CSS pixels. It is fixed so that stacked plots line up and an aspect ratio can be kept.
 const room = {left: {size: 52, labelSize: 20}, bottom: {size: 26, labelSize: 18}, padding: [8, 14, 0, 0]};
 const roomAcross = room.left.size + room.left.labelSize + room.padding[1];
 const roomDown = room.bottom.size + room.bottom.labelSize + room.padding[0];
@@ -59,12 +59,12 @@ function axis(side, label, more = {}) {
   };
 }
 
-// As many decimals as the step between two ticks has.
+// The number of decimals of the step between two ticks, at most 9.
 function decimalsOf(step) {
   let decimals = 0;
   while (decimals < 9 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) ++decimals;
   return decimals;
 }
 
-// A number with a true minus sign.
+// A number with a true minus sign, and none if it rounds to zero.
 const number = (value, decimals) => value.toFixed(decimals).replace(/^-(?=.*[1-9])/, "−").replace("-", "");

@@ -1,11 +1,11 @@
-// `lpvmpc report RUN_DIR -o FILE`: the page about a run, one HTML file that any browser opens without a network.
+// `lpvmpc report RUN_DIR -o FILE`: the page about a run, one HTML file that any browser shows without a network.
 //
 // RUN_DIR holds either
-//   report.json   what the page shows (report_page.hpp), as `lpvmpc paper --out` writes it
-// or, of a single drive, as `lpvmpc run --out` and scripts/drive write them,
+//   report.json   the page's data (report_page.hpp), as written by `lpvmpc paper --out` and `lpvmpc sweep --out`
+// or, for a single drive, as written by `lpvmpc run --out` and scripts/drive,
 //   candump.log   every frame of the bus
-//   drive.toml    what it was driven with (tools/drive/drive_file.hpp)
-//   summary.json  what came of it (sim/summary.hpp), if it is there
+//   drive.toml    the drive's inputs (tools/drive/drive_file.hpp)
+//   summary.json  its result (sim/summary.hpp), optional
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,8 @@ struct ReportOptions {
   std::filesystem::path output;
 };
 
-// Writes the page, whole or not at all. Throws one line: a file is missing, wrong (with its line) or cannot be written.
+// Writes the complete page or nothing. Throws an exception with a one-line message if a file is missing, is wrong (the
+// message names the place of the error) or cannot be written.
 void Report(const ReportOptions& options);
 
 }  // namespace tools

@@ -14,17 +14,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Of a middle-sized car about its axles [m].
+// Overhang beyond each axle and width of a mid-size car [m].
 constexpr double kOverhang = 0.9;
 constexpr double kWidth = 1.8;
 
-// As many decimals as can be seen in a picture.
+// Rounds to the decimals that are visible in a plot.
 double Rounded(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   return std::round(value * scale) / scale;
 }
 
-// One series of all samples; null where `value` gives NaN.
+// One series over all samples; null where `value` returns NaN.
 template <typename Value>
 ordered_json Series(const DriveRecord& record, int decimals, const Value& value) {
   ordered_json series = ordered_json::array();
@@ -35,7 +35,7 @@ ordered_json Series(const DriveRecord& record, int decimals, const Value& value)
   return series;
 }
 
-// Of quantities that only a cycle with a solved problem has.
+// NaN in cycles without a problem to solve, otherwise `value`.
 template <typename Value>
 auto IfSolving(const Value& value) {
   return [value](const DriveSample& sample) {

@@ -1,4 +1,4 @@
-// Roads and drives in the JSON that a report page is drawn from (report_page.hpp tells its form).
+// Roads and drives as JSON data of a report page (report_page.hpp defines the format).
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ namespace tools {
 [[nodiscard]] nlohmann::ordered_json RoadData(const config::RouteFile& road);
 
 struct DriveLabel {
-  std::string name;                   // in legends
-  std::string road_key;               // of its road in the page's data
-  control::Footprint footprint = {};  // of the vehicle; a point is drawn as a middle-sized car, for scale
+  std::string name;                   // shown in legends
+  std::string road_key;               // key of the drive's road in the page's data
+  control::Footprint footprint = {};  // vehicle; a point is drawn as a mid-size car, for scale
 };
 
-// `config` and `road` are those that the drive was driven with.
+// `config` and `road` are those of the drive.
 [[nodiscard]] nlohmann::ordered_json DriveData(const DriveRecord& record, const DriveLabel& label,
                                                const loop::Config& config, const config::RouteFile& road);
 

@@ -24,7 +24,7 @@ std::string EscapedHtml(std::string_view text) {
   return escaped;
 }
 
-// `<` stands in JSON's strings alone, and there an escape means the same.
+// In JSON `<` occurs only inside strings, where the escape is equivalent.
 std::string EscapedJson(std::string_view json) {
   std::string escaped;
   escaped.reserve(json.size());

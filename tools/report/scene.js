@@ -1,6 +1,6 @@
-// What the plots of the plane show of drives: road, obstacles, driven paths, vehicles, open-loop predictions.
+// Parts shared by the plots of the plane: samples, obstacles, open-loop predictions, roads and the road's legend.
 
-// The index of the sample of `drive` nearest to time `t`; null outside the drive.
+// The index of the drive's sample nearest to time `t`; null outside the drive.
 function sampleAt({series, t_s}, t) {
   const times = series.t;
   if (t === null || t < times[0] - t_s || t > times.at(-1) + t_s) return null;
@@ -16,14 +16,14 @@ function sampleAt({series, t_s}, t) {
 
 const hasPose = ({series}, k) => series.X[k] != null && series.Y[k] != null && series.psi[k] != null;
 
-// The obstacle where it is at time `t`.
+// The obstacle moved to its position at time `t`.
 const obstacleAt = (obstacle, t) =>
   ({...obstacle, X: obstacle.X + obstacle.velocity_X * t, Y: obstacle.Y + obstacle.velocity_Y * t});
 
-// The obstacle where it is at sample `k` of the drive, or at the start where there is none.
+// The obstacle moved to its position at sample `k` of the drive, or at the start if `k` is null.
 const placedAt = (obstacle, {series}, k) => obstacleAt(obstacle, k === null ? 0 : series.t[k]);
 
-// The sample at which the drive comes nearest to the obstacle's centre; null if it has no pose at all.
+// The sample at which the drive is nearest to the obstacle's centre; null if it has no pose at all.
 function closestSample(drive, obstacle) {
   let best = null;
   let least = Infinity;
@@ -36,7 +36,7 @@ function closestSample(drive, obstacle) {
   return best;
 }
 
-// The open-loop prediction of step `k` in the plane; null where the report holds none.
+// The open-loop prediction of step `k` in the plane; null if the report contains none.
 function planOf({plans, series}, k) {
   const i = plans ? plans.k.indexOf(k) : -1;
   if (i < 0 || series.X[k] == null || series.Y[k] == null) return null;
@@ -57,7 +57,7 @@ function drawObstacle(pen, obstacle) {
               {color: color("obstacle-edge"), width: 1, dash: [4, 3]});
 }
 
-// Obstacles of several drives, each once, where they are when `sample(drive, obstacle)` is.
+// Draws the obstacles of several drives at sample `sample(drive, obstacle)`; obstacles that coincide are drawn once.
 function drawObstacles(pen, drives, sample) {
   const drawn = new Set();
   for (const drive of drives) {
@@ -72,7 +72,8 @@ function drawObstacles(pen, drives, sample) {
 
 const roadsOf = (report, drives) => [...new Set(drives.map(drive => drive.road))].map(key => report.roads[key]);
 
-// The points of the obstacle's margin where `drive` comes nearest to it, as a line for boxAbout().
+// Two opposite corners of a square around the obstacle and its margin, where `drive` is nearest, as a line for
+// boxAbout().
 function extentOf(obstacle, drive) {
   const {X, Y, r_x, r_y, margin} = placedAt(obstacle, drive, closestSample(drive, obstacle));
   const radius = Math.max(r_x, r_y) + margin;

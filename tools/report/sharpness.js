@@ -1,5 +1,5 @@
-// Canvases are drawn with at least two pixels for each CSS pixel, also on a screen that has one: what is printed is
-// the canvas as it stands. uPlot reads this when it is loaded, so it stands before it.
+// Canvases have at least two pixels per CSS pixel, even on a screen with one, because the canvas is printed as it is.
+// uPlot reads the ratio when it is loaded, so this script precedes it.
 {
   const own = Object.getOwnPropertyDescriptor(window, "devicePixelRatio").get;
   Object.defineProperty(window, "devicePixelRatio", {get: () => Math.max(2, own.call(window))});

@@ -1,6 +1,6 @@
 // Tiles of figures, and tables.
 
-// Whether it is good is said by sign and colour.
+// A verdict is shown by a sign and by colour.
 const verdictSign = {good: "✓", bad: "✗"};
 const verdictMark = verdict => verdict ? [element("span", {class: "verdict"}, verdictSign[verdict])] : [];
 
@@ -10,14 +10,14 @@ function addFigures(report, {items}, body) {
   body.append(element("dl", {class: "tiles"}, ...tiles));
 }
 
-// Numbers with a unit, and dashes that stand where there is none.
+// A numeric cell is a number with an optional unit, a dash, or empty.
 const numeral = /^[<>≤≥±]?\s*[-−+]?\d[\d.,\s]*(e[-−+]?\d+)?\s*(%|[a-zA-Zµ°/²³·]{1,6})?$/;
 const looksNumeric = text => ["", "–", "—", "-"].includes(text) || numeral.test(text);
 
-// A cell of so many characters is kept on one line.
+// A cell of at most this many characters is kept on one line.
 const shortText = 20;
 
-// Runs of rows that tell of one thing, that is, whose first cells are the same.
+// Runs of consecutive rows with the same first cell.
 function groupsOf(rows, textOf) {
   const groups = [];
   for (const row of rows) {
@@ -38,7 +38,7 @@ function addTable(report, {columns, rows, note}, body) {
     return element("td", {class: kinds.filter(kind => kind).join(" "), ...more}, ...verdictMark(cell.verdict),
                    numeric[i] ? text.replace(/^-(?=\d)/, "−").replace(/^-$/, "–") : unbroken(text));
   };
-  // The first cell of a group stands for all its rows.
+  // The first cell of a group spans all its rows.
   const groups = groupsOf(rows, textOf).map(group => element("tbody", {}, ...group.map((row, r) =>
     element("tr", {}, ...row.flatMap((cell, i) =>
       i > 0 ? cellOf(cell, i, {}) : r === 0 ? cellOf(cell, i, {rowspan: group.length}) : [])))));

@@ -1,5 +1,5 @@
-// Colours and fonts of the canvases: the custom properties of page.css, read anew whenever something is drawn, for
-// they change with the system's scheme and in print.
+// Colours and fonts of the canvases. The custom properties of page.css are read at every drawing because they change
+// with the system's colour scheme and in print.
 const rootStyle = getComputedStyle(document.documentElement);
 
 function color(name) {
@@ -11,10 +11,10 @@ function color(name) {
 // The name of the colour of drive number `i` of a section.
 const driveColor = i => `drive-${i % 6}`;
 
-// Each of several drives is drawn narrower than the one before, so that those below can be seen where they coincide.
+// Each drive is drawn narrower than the previous one, so that those below remain visible where they coincide.
 const driveWidth = (i, drives) => 1.6 * (drives.length - i);
 
-// The colour at `share` (0 to 1) of the sequential ramp.
+// The colour of the sequential ramp at `share` (0 to 1).
 function rampColor(share) {
   const at = share * 2;
   const from = Math.min(1, Math.floor(at));

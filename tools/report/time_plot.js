@@ -1,7 +1,7 @@
-// Plots over time of one quantity, the drives of a section overlaid.
+// Plots of one quantity over time, with the drives of a section overlaid.
 
-// `span`: the least height of the plot, so that rounding does not look like motion. `limits`: the member of the drive's
-// limits; `limit`: a value of its own. `scheduling`: of controllers that schedule a model only.
+// `span`: the least range of the axis, so that rounding does not look like motion. `limits`: the member of the drive's
+// limits; `limit`: a fixed limit. `scheduling`: exists only for controllers that schedule a model.
 const quantities = [
   {key: "delta", title: "Steering angle", axis: "δ [rad]", decimals: 4, span: 0.02, limits: "delta"},
   {key: "a", title: "Acceleration", axis: "a [m/s²]", decimals: 3, span: 0.2, limits: "a"},
@@ -26,7 +26,7 @@ function valueRange({span, fromZero}, min, max) {
   return [middle - half, middle + half];
 }
 
-// From a 1, 2 or 5 below the least value to one above the greatest.
+// The range from a tick (1, 2 or 5 times a power of ten) at or below the least value to one at or above the greatest.
 function logRange(min, max) {
   if (min === null) return [1, 10];
   const steps = logTicks(10 ** Math.floor(Math.log10(min)), 10 ** Math.ceil(Math.log10(max) + 1e-9));
@@ -41,7 +41,7 @@ function logTicks(min, max) {
   return ticks.filter(tick => tick >= min * 0.9999 && tick <= max * 1.0001);
 }
 
-// Beyond about two decades the decades alone have numbers.
+// Beyond 8 ticks, about two and a half decades, only the powers of ten are labelled.
 function logLabels(plot, ticks) {
   const all = ticks.length <= 8;
   const isDecade = tick => tick.toExponential().startsWith("1e");
@@ -60,7 +60,7 @@ function unsolvedRuns({series, t_s}) {
   return runs;
 }
 
-// A band over the whole height, and at its foot a block in the colour of the drive, a row for each drive.
+// Draws each run as a band over the whole height, with a block in the drive's colour at the bottom, one row per drive.
 function drawUnsolved(plot, drives) {
   const {ctx} = plot;
   const {left, top, width, height} = plot.bbox;
@@ -114,11 +114,11 @@ function showValues(readout, t, drives, {key, decimals}) {
   });
 }
 
-// Mounts the plot of `quantity`. `sync` joins the cursors of a section; `moved(t)` is told the cursor's time, null when
-// it is gone.
+// Mounts the plot of `quantity`. `sync` joins the cursors of a section; `moved(t)` is called with the cursor's time, or
+// null when the cursor leaves.
 function mountTimePlot(frame, quantity, drives, {sync, span, moved}) {
   const {key, reference, log, stepped} = quantity;
-  // What is not positive has no place on a logarithmic axis.
+  // A logarithmic axis cannot show values that are not positive.
   const values = name => drives.map(({series}) =>
     [series.t, log ? series[name].map(value => value > 0 ? value : null) : series[name]]);
   const tables = values(key).concat(reference ? values(reference) : []);

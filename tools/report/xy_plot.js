@@ -1,8 +1,8 @@
-// A plot of the plane in metres: the same scale across and up, whatever the window, the zoom or the paper.
+// A plot of the plane in metres, with the same scale on both axes at any window size, zoom or paper size.
 
 const xyHint = "drag to zoom, Ctrl + wheel at the pointer, double click for all";
 
-// The smallest box about the points of `lines` ([{X, Y}]), `margin` metres larger on every side.
+// The bounding box of the points of `lines` ([{X, Y}]), extended by `margin` metres on every side.
 function boxAbout(lines, margin) {
   const box = {left: Infinity, right: -Infinity, low: Infinity, high: -Infinity};
   for (const {X, Y} of lines) {
@@ -18,7 +18,7 @@ function boxAbout(lines, margin) {
   return {left: box.left - margin, right: box.right + margin, low: box.low - margin, high: box.high + margin};
 }
 
-// The box, larger in one direction, that fills `across` by `down` CSS pixels with one scale.
+// The box, extended in one direction to fill `across` by `down` CSS pixels with one scale.
 function filling(box, across, down) {
   const metresPerPixel = Math.max((box.right - box.left) / across, (box.high - box.low) / down);
   const X = (box.left + box.right) / 2;
@@ -30,16 +30,17 @@ function filling(box, across, down) {
 
 const isWide = box => box.right - box.left > box.high - box.low;
 
-// The height of a plot, by its width: as much as the box needs there, within what can be looked at.
+// The height of a plot as a function of its width [CSS pixels]: that of the box, at least 180 and at most `most`, plus
+// the room of the axis.
 function heightFor(box, most) {
   const aspect = (box.high - box.low) / (box.right - box.left);
   return width => Math.round(Math.min(most, Math.max(180, (width - roomAcross) * aspect)) + roomDown);
 }
 
-// Mounts a plot that shows the box `home`; `draw(pen)` draws it. `height(width)` of the plot in CSS pixels.
+// Mounts a plot that shows the box `home`; `draw(pen)` draws its content. `height(width)` is in CSS pixels.
 function mountXyPlot(frame, home, height, draw) {
-  let box = home;   // what must be seen
-  let view;         // what is seen: `box` filling the plot
+  let box = home;   // the part that must be visible
+  let view;         // the visible part: `box` extended to fill the plot
   const fill = width => { view = filling(box, width - roomAcross, height(width) - roomDown); };
   const show = plot => {
     fill(plot.width);

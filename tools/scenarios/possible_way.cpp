@@ -13,9 +13,9 @@ namespace {
 using control::PassingSide;
 
 constexpr double kFrictionShare = 0.7;
-constexpr double kBeside = 0.2;  // on either side of the vehicle [m]
+constexpr double kBeside = 0.2;  // free space on either side of the vehicle [m]
 
-// Lateral positions, left positive [m].
+// Lateral positions of a gap's ends, left positive [m].
 struct Gap {
   double right;
   double left;
@@ -42,7 +42,7 @@ bool OnToldSide(const Encounter& met, const Gap& gap) {
   return true;
 }
 
-// Of those that the vehicle has beside itself at the same time as `met`, this one too.
+// The obstacles that the vehicle is beside at the same time as `met`, including `met`.
 std::vector<Encounter> Beside(const std::vector<Encounter>& all, const Encounter& met,
                               const control::Footprint& footprint) {
   std::vector<Encounter> beside;
@@ -55,7 +55,7 @@ std::vector<Encounter> Beside(const std::vector<Encounter>& all, const Encounter
   return beside;
 }
 
-// The least shift from the road's middle that leads past `met`.
+// The least shift from the road's middle that leads past `met`; none if no gap is wide enough on the prescribed side.
 std::optional<double> LeastShift(const std::vector<Encounter>& all, const Encounter& met,
                                  const sim::Scenario& scenario) {
   const std::vector<Encounter> beside = Beside(all, met, scenario.footprint);

@@ -1,4 +1,5 @@
-// Random numbers that are the same with any standard library: its engines are laid down, its distributions are not.
+// Random numbers that are the same with any standard library: the C++ standard specifies the engines exactly, but not
+// the distributions.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +11,11 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  // In [low, high).
+  // A number in [low, high).
   [[nodiscard]] double Uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
   }
-  // One of low..high; as good as uniform over a few numbers.
+  // A whole number in low..high; practically uniform over a small range.
   [[nodiscard]] int Integer(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }

@@ -16,19 +16,19 @@ namespace {
 
 using control::PassingSide;
 
-constexpr double kShortest = 7.5, kLongest = 9.0;  // drives at the target speed [s]
-constexpr double kSpacing = 2.5;                   // before an obstacle's encounter [s]
-constexpr double kAfterLast = 0.8;                 // [s]
-constexpr double kRunOut = 4.0;                    // of the controller's road past the scenario's end [s]
-constexpr double kLateralShare = 0.35;             // of μ g that the road's bends take
-constexpr double kSharpest = 1.0 / 30.0;           // curvature [1/m]
+constexpr double kShortest = 7.5, kLongest = 9.0;  // duration of a drive at the target speed [s]
+constexpr double kSpacing = 2.5;                   // least time before each encounter [s]
+constexpr double kAfterLast = 0.8;                 // least time from the last encounter to the end [s]
+constexpr double kRunOut = 4.0;           // extension of the controller's road past the scenario's end [s]
+constexpr double kLateralShare = 0.35;    // share of μ g that the road's bends need at most
+constexpr double kSharpest = 1.0 / 30.0;  // curvature [1/m]
 constexpr control::RoadBounds kRoad{.left = 4.0, .right = -4.0};
-// No road reaches the map's bounds from here.
+// The start: no road reaches the map's bounds from here.
 constexpr double kStartX = 0.5 * (sim::kMapMinX + sim::kMapMaxX),
                  kStartY = 0.5 * (sim::kMapMinY + sim::kMapMaxY);
 static_assert((kLongest + kRunOut) * kSpeedLimits.high < kStartX - sim::kMapMinX - 50.0);
 
-// Out of a straight and back into it, within `length` [m].
+// Appends a bend that begins and ends straight, within `length` [m].
 void AddBend(Random& random, double length, double curvature, std::vector<control::RoutePiece>& pieces) {
   const double in = random.Uniform(0.2, 0.35) * length, out = random.Uniform(0.2, 0.35) * length;
   const double straight = random.Uniform(0.01, 0.15) * length;
@@ -75,14 +75,14 @@ void DrawVehicle(Random& random, const Interval& mu, sim::Scenario& scenario) {
       .position = 0.05 * noise, .speed = 0.05 * noise, .heading = 0.004 * noise, .yaw_rate = 0.01 * noise};
 }
 
-// Of an obstacle in the road's frame: along it and to its left [m/s]. Zero for two of three.
+// An obstacle's velocity along the road and to its left [m/s]. Zero for two of three.
 Eigen::Vector2d DrawVelocity(Random& random, double speed) {
   if (!random.Chance(1.0 / 3.0)) return {0.0, 0.0};
   if (random.Chance(0.5)) return {random.Sign() * random.Uniform(0.02, 0.25) * speed, 0.0};
   return {0.0, random.Sign() * random.Uniform(0.2, 1.0)};
 }
 
-// Met at time `at` by a vehicle that keeps the target speed.
+// An obstacle that a vehicle with the target speed meets at time `at`.
 control::Obstacle DrawObstacle(Random& random, const control::Route& route, double speed, double at) {
   const control::RoutePoint point = route.At(at * speed);
   const double lateral = random.Uniform(-2.2, 2.2);
@@ -97,7 +97,7 @@ control::Obstacle DrawObstacle(Random& random, const control::Route& route, doub
   const Eigen::Vector2d velocity = DrawVelocity(random, speed);
   obstacle.velocity_X = velocity.x() * std::cos(point.psi) - velocity.y() * std::sin(point.psi);
   obstacle.velocity_Y = velocity.x() * std::sin(point.psi) + velocity.y() * std::cos(point.psi);
-  // Back to where it is at the start.
+  // Moves it back to its position at the start.
   obstacle.X -= obstacle.velocity_X * at;
   obstacle.Y -= obstacle.velocity_Y * at;
   if (random.Chance(0.5)) obstacle.side = lateral < 0.0 ? PassingSide::kLeft : PassingSide::kRight;

@@ -7,7 +7,7 @@ namespace tools {
 namespace {
 
 void Check(const char* option, const Interval& range, const Interval& limits) {
-  // Not the other way round: NaN is refused too.
+  // The condition is stated positively so that NaN is rejected too.
   if (limits.low <= range.low && range.low <= range.high && range.high <= limits.high) return;
   throw std::invalid_argument(fmt::format("{}: {} {} must be LO HI with {} <= LO <= HI <= {}", option,
                                           range.low, range.high, limits.low, limits.high));

@@ -1,4 +1,4 @@
-// From what the scenarios of a sweep are drawn.
+// The ranges from which the scenarios of a sweep are drawn.
 #pragma once
 
 namespace tools {
@@ -11,14 +11,14 @@ struct Interval {
 
 struct ScenarioRanges {
   Interval speed{8.0, 20.0};  // target speed [m/s]
-  Interval mu{0.4, 1.0};      // friction coefficient of the road
+  Interval mu{0.4, 1.0};      // friction coefficient of the road [1]
   bool operator==(const ScenarioRanges&) const = default;
 };
 
 inline constexpr Interval kSpeedLimits{3.0, 40.0};
 inline constexpr Interval kMuLimits{0.1, 1.2};
 
-// Throws std::invalid_argument, in the words of the command line, if a range leaves these limits or is reversed.
+// Throws std::invalid_argument, naming the command-line option, if a range exceeds these limits, is reversed or NaN.
 void CheckRanges(const ScenarioRanges& ranges);
 
 }  // namespace tools

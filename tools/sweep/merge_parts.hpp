@@ -1,4 +1,4 @@
-// The parts of a sweep, as `lpvmpc sweep --shard` wrote them, joined.
+// Joins the parts of a sweep that `lpvmpc sweep --shard` wrote.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace tools {
 
-// Throws std::runtime_error that names the file: it cannot be read, is no part, is of another sweep than the first, or a
-// shard that was there before; and the shards that no file is of.
+// `files` must not be empty. Throws std::runtime_error that names the file if it cannot be read, is not a part, belongs
+// to another sweep than the first, or repeats a shard; and one that lists the missing shards.
 [[nodiscard]] SweepResult MergeParts(const std::vector<std::filesystem::path>& files);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// `lpvmpc sweep`: many scenarios drawn by chance, driven by several controllers. docs/sweep.md is its manual.
+// `lpvmpc sweep`: many random scenarios, driven by several controllers. docs/sweep.md is its manual.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,13 @@ struct SweepOptions {
   SweepSetup setup;
   int jobs = 1;                // processes
   std::optional<Shard> shard;  // none: the whole sweep
-  std::filesystem::path
-      out;  // folder for sweep.json, timing.json, report.json and report.html; of a shard, the file
-            // of its part; empty: none
+  // Folder for sweep.json, timing.json, report.json and report.html; with `shard`, the file for its part; empty: none.
+  std::filesystem::path out;
   bool json = false;
 };
 
-// Writes the table, or with `json` all figures, to `out`; of a shard, its part if no file is given. Throws one line: a
-// bad option, before anything is driven, or a file that cannot be written.
+// Writes the table, or with `json` all figures, to `out`; with `shard`, its part if no file is given. Throws an
+// exception with a one-line message on a bad option, before anything is driven, or if a file cannot be written.
 void Sweep(const SweepOptions& options, std::ostream& out);
 
 struct SweepMergeOptions {
@@ -30,8 +29,8 @@ struct SweepMergeOptions {
   bool json = false;
 };
 
-// Writes what the sweep that the parts are of would have written without shards. Throws one line that names the file: it
-// is missing, no part, of another sweep, there twice; or which shards are lacking.
+// Writes the same output as the sweep without shards. Throws an exception with a one-line message that names the file
+// if it is missing, is not a part, belongs to another sweep or repeats a shard, or that lists the missing shards.
 void MergeSweep(const SweepMergeOptions& options, std::ostream& out);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// One scenario of a sweep driven by one controller, and what came of it.
+// A drive of one scenario of a sweep by one controller, and its outcome.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 namespace tools {
 
 enum class SweepOutcome {
-  kPassed,   // to the end of the route
+  kPassed,   // reached the end of the route
   kStopped,  // came to a stop before it
-  kContact,  // the vehicle's rectangle met an obstacle before it left the road; what came after does not count
-  kOffRoad,  // a corner left the road first
-  kFailed,   // none of these: never engaged, taken over on the way, or not there in twice the route's time
+  kContact,  // the vehicle's rectangle touched an obstacle and had not left the road before
+  kOffRoad,  // a corner left the road before any contact
+  kFailed,   // never engaged, taken over, or not at the end after twice the route's time plus 10 s
 };
 inline constexpr int kSweepOutcomes = 5;
 [[nodiscard]] const char* NameOf(
@@ -26,15 +26,16 @@ inline constexpr int kSweepOutcomes = 5;
   return outcome != SweepOutcome::kPassed && outcome != SweepOutcome::kStopped;
 }
 
-// Figures that are not finite, of a drive that went beyond all bounds, are none.
+// A figure that is not finite, because the drive diverged, is stored as none.
 struct SweepDrive {
   SweepOutcome outcome = SweepOutcome::kFailed;
-  std::string why;  // when, and the first step that was not solved; empty if passed and all were
+  std::string why;  // step of the failure, and the first unsolved step; empty if there is neither
   std::int64_t steps = 0;
   int infeasible_steps = 0;
   std::optional<double> min_clearance_m;
   std::optional<double> min_road_margin_m;
-  // By the default weights of control::MpcSettings and the road beside the vehicle, whoever drives.
+  // The cost with the default weights of control::MpcSettings and the reference beside the vehicle, for every
+  // controller.
   std::optional<double> cost;
   std::optional<double> rms_steering_rate;  // [rad/s]
   std::optional<double> rms_jerk;           // [m/s³]
@@ -42,10 +43,10 @@ struct SweepDrive {
 
 struct TimedSweepDrive {
   SweepDrive drive;
-  std::vector<double> step_seconds;  // of wall clock, one for each control step
+  std::vector<double> step_seconds;  // wall-clock time of each control step
 };
 
-// `frame` is called with every frame of both sides. Throws std::invalid_argument: no such controller.
+// Calls `frame` with every frame of both sides. Throws std::invalid_argument if there is no such controller.
 [[nodiscard]] TimedSweepDrive DriveSweepScenario(
     const RandomScenario& drawn, const ScenarioRanges& ranges, const std::string& controller,
     const std::function<void(const can::Frame&)>& frame = nullptr);

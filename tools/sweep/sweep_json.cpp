@@ -23,7 +23,7 @@ std::optional<double> NumberOrNone(const ordered_json& value) {
   return value.get<double>();
 }
 
-// The one of `all` that has this name.
+// The value of `all` with this name. Throws std::invalid_argument if there is none.
 template <typename Enumeration, std::size_t N>
 Enumeration Named(const std::array<Enumeration, N>& all, const std::string& name) {
   for (const Enumeration one : all) {

@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kDrawn = 12;    // of the failures
-constexpr std::size_t kListed = 500;  // of the failures; sweep.json has all
+constexpr std::size_t kDrawn = 12;    // failures with a plot
+constexpr std::size_t kListed = 500;  // failures in the table; sweep.json has all
 
 std::string OrDash(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
@@ -82,7 +82,7 @@ ordered_json FailuresSection(const SweepResult& result) {
           {"note", all > kListed ? fmt::format("The first {} of {}.", kListed, all) : ""}};
 }
 
-// Those that the vehicle came near to: the page draws the plane at each.
+// Keeps only the obstacles that the vehicle came near to, because the page draws the plane at each.
 void KeepObstaclesMet(DriveRecord& record) {
   constexpr double kNear = 12.0;  // [m]
   std::erase_if(record.obstacles, [&](const control::Obstacle& obstacle) {
@@ -91,7 +91,7 @@ void KeepObstaclesMet(DriveRecord& record) {
   });
 }
 
-// Drives it again and adds its road, its drive and a section that shows them.
+// Drives the scenario again and adds its road, its drive and a section that shows them.
 void AddDrawing(const SweepResult& result, const SweepFailure& failure, ordered_json& page) {
   const SweptScenario& scenario = result.scenarios[failure.scenario];
   const std::string& controller = result.setup.controllers[failure.controller];

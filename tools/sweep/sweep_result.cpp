@@ -15,7 +15,7 @@ std::optional<double> Median(std::vector<double> values) {
   return base::Percentile(values, 0.5);
 }
 
-// Of the drives that passed, `figure` as far as there is one.
+// The median of `figure` over the drives that passed, as far as they have one; none if none has.
 template <typename Figure>
 std::optional<double> MedianOfPassed(const SweepResult& result, std::size_t controller,
                                      const Figure& figure) {

@@ -1,4 +1,4 @@
-// What came of a sweep, or of a part of it.
+// The result of a sweep, or of a part of it.
 #pragma once
 
 #include <array>
@@ -25,41 +25,42 @@ struct SweptScenario {
 
 struct SweepResult {
   SweepSetup setup;
-  std::vector<SweptScenario> scenarios;  // by rising index
+  std::vector<SweptScenario> scenarios;  // by increasing index
   std::vector<TimeHistogram> times;      // of control steps, in the order of the controllers
 };
 
-// A line of the table.
+// One line of the table.
 struct ControllerFigures {
   std::string controller;
   std::array<int, kSweepOutcomes> outcomes{};  // scenarios by SweepOutcome
-  int passed_of_passable = 0;                  // of those that PossibleWay::kPass says of
-  int failures_of_possible = 0;           // contact, off-road, failed where there is a way to pass or to stop
-  std::optional<double> cost_ratio = {};  // to the NMPC's, median over the scenarios that both passed
-  std::optional<double> steering_rate = {};  // RMS of each drive that passed, their median [rad/s]
-  std::optional<double> jerk = {};           // likewise [m/s³]
+  int passed_of_passable = 0;                  // passed scenarios among those with PossibleWay::kPass
+  int failures_of_possible = 0;           // contact, off-road, failed where passing or stopping is possible
+  std::optional<double> cost_ratio = {};  // to the NMPC's cost; median over scenarios that both passed
+  std::optional<double> steering_rate = {};  // median RMS over the drives that passed [rad/s]
+  std::optional<double> jerk = {};           // median RMS over the drives that passed [m/s³]
 };
 
 [[nodiscard]] std::vector<ControllerFigures> Tabulate(const SweepResult& result);
 [[nodiscard]] int CountWays(const SweepResult& result, PossibleWay way);
 
-// A drive that ended badly; indices into SweepResult.
+// A failed drive, as indices into SweepResult.
 struct SweepFailure {
   std::size_t scenario;
   std::size_t controller;
 };
-// In the order of the scenarios.
+// All failures, in the order of the scenarios.
 [[nodiscard]] std::vector<SweepFailure> Failures(const SweepResult& result);
-// The `most` worst: where there was a way first, deepest first.
+// The `most` worst failures: first those where passing or stopping was possible; within each group, by increasing
+// smallest clearance or road margin.
 [[nodiscard]] std::vector<SweepFailure> WorstFailures(const SweepResult& result, std::size_t most);
 
-// For a terminal.
+// Text for a terminal.
 [[nodiscard]] std::string ToText(const SweepResult& result);
-// {"sweep", "table", "scenarios"}: the same whenever and by however many processes the sweep was driven.
+// {"sweep", "table", "scenarios"}: reproducible, whatever the number of processes.
 [[nodiscard]] nlohmann::ordered_json ToJson(const SweepResult& result);
-// For each controller {"steps", "median_s", "p99_s"}: what the clock of the machine said.
+// {"steps", "median_s", "p99_s"} for each controller: measured wall-clock times.
 [[nodiscard]] nlohmann::ordered_json TimingJson(const SweepResult& result);
-// The data of its page (report_page.hpp). Drives the worst failures again, to draw them.
+// The data of the sweep's page (report_page.hpp). Drives the worst failures again to plot them.
 [[nodiscard]] nlohmann::ordered_json SweepPage(const SweepResult& result);
 
 }  // namespace tools

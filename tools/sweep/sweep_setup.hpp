@@ -1,4 +1,4 @@
-// What a sweep is: all that its result depends on, and so what all of its parts must share.
+// The definition of a sweep: everything on which its result depends, and which all of its parts must share.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ struct SweepSetup {
   bool operator==(const SweepSetup&) const = default;
 };
 
-// Throws std::invalid_argument, in the words of the command line: a range (sweep_ranges.hpp), a controller that there is
-// not, or one named twice, or none.
+// Throws std::invalid_argument, naming the command-line option, if a range is bad (scenario_ranges.hpp), or a
+// controller is unknown or named twice, or none is named.
 void CheckSetup(const SweepSetup& setup);
 
-// Part `index`, from 1, of `of`: the scenarios index − 1, index − 1 + of, ...
+// Part `index`, from 1, of `of` parts: the scenarios index − 1, index − 1 + of, ...
 struct Shard {
   int index = 1;
   int of = 1;
@@ -33,7 +33,7 @@ struct Shard {
   [[nodiscard]] std::vector<int> Indices(int count) const;
 };
 
-// Of "i/n". Throws std::invalid_argument unless 1 <= i <= n.
+// Parses "i/n". Throws std::invalid_argument if `text` has another form, or unless 1 <= i <= n.
 [[nodiscard]] Shard ParseShard(const std::string& text);
 
 }  // namespace tools

@@ -1,5 +1,5 @@
-// How often which time was taken, in buckets each 2 % longer than the one before: what many processes and machines
-// measured is added up, and stays small.
+// Counts of measured times, in buckets that grow by 2 %: the measurements of many processes and machines can be added,
+// and the histogram stays small.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@ namespace tools {
 
 class TimeHistogram {
  public:
-  void Add(double seconds);  // one that is not above 0 counts in the shortest bucket, of a nanosecond
+  void Add(double seconds);  // times up to 1 ns, also zero and negative ones, count in bucket 0
   void Add(const TimeHistogram& other);
   void AddBucket(int bucket, std::int64_t count) { counts_[bucket] += count; }
 
   [[nodiscard]] const std::map<int, std::int64_t>& counts() const { return counts_; }
-  // Nearest rank, told too long by at most 2 % [s]; 0 of none.
+  // Nearest rank [s], over-reported by at most 2 % (times below 1 ns as 1 ns); 0 if the histogram is empty.
   [[nodiscard]] double Percentile(double share) const;
 
  private:

@@ -1,5 +1,5 @@
-// Nothing in the control step takes memory from the heap: neither by operator new (tests/support/allocations.hpp) nor
-// by malloc and its kin, which Eigen calls for a matrix of dynamic size and which the linker's --wrap leads here.
+// The control step takes no memory from the heap: neither by operator new (tests/support/allocations.hpp) nor by malloc
+// and its kin, which Eigen calls for a matrix of dynamic size and which the linker's --wrap redirects to this file.
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
@@ -110,7 +110,7 @@ TEST(Allocations, ControlStepTakesNone) {
   }
 }
 
-// Among obstacles, at a blocked road, in hold, and where nothing is solved.
+// Covers a drive among obstacles, a blocked road, hold, and a step in which nothing is solved.
 TEST(Allocations, StepWithTheAffineModelTakesNone) {
   LpvAffineSettings settings;
   settings.iterations = 3;

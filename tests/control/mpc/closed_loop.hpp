@@ -59,7 +59,7 @@ class ClosedLoop {
     z_ = Rk4(z_, kStep, 50, [&](const State& z) { return model_.Derivative(z, u_); });
     ++k_;
   }
-  // Takes the plan's own prediction for what happened.
+  // Moves the vehicle exactly as the plan predicts.
   void DriveAsPredicted(const Plan& plan) {
     u_ = plan.u[0];
     z_ = plan.z[1];

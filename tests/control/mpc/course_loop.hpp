@@ -33,7 +33,7 @@ class CourseLoop {
         point.psi, 0.0;
     s_ = s;
   }
-  // A circle of this radius, `lateral` left of the course.
+  // A circle of this radius at `s`, `lateral` [m] left of the course.
   [[nodiscard]] Obstacle ObstacleAt(double s, double lateral, double radius) const {
     const RoutePoint point = course_.At(s);
     return {.id = 1,
@@ -54,12 +54,12 @@ class CourseLoop {
   // The controller's answer to the present state; nothing moves.
   const Plan& Ask() { return mpc_.Step(Asked()); }
   [[nodiscard]] ControllerInput Asked() const {
-    return {.z = z_, .u_previous = u_, .place = {}, .obstacles = obstacles_, .time_left = nullptr};
+    return {.z = z_, .u_previous = u_, .place = {.s = s_}, .obstacles = obstacles_, .time_left = nullptr};
   }
   // Applies the plan's first input for one step; obstacles move on.
   void Drive(const Plan& plan) {
     u_ = plan.u[0];
-    const double backwards = -z_[kUpsilon] / settings_.t_s;  // brakes do not drive backwards
+    const double backwards = -z_[kUpsilon] / settings_.t_s;  // brakes cannot drive backwards [m/s²]
     z_ = model_.Step(z_, {u_[kDelta], std::max(u_[kAcceleration], backwards)});
     for (Obstacle& obstacle : obstacles_) obstacle = Predict(obstacle, settings_.t_s);
     const RouteProjection place = course_.Project(z_.head<2>(), s_);
@@ -67,9 +67,9 @@ class CourseLoop {
     lateral_ = place.lateral;
   }
   [[nodiscard]] double s() const { return s_; }
-  [[nodiscard]] double lateral() const { return lateral_; }  // left of the course
+  [[nodiscard]] double lateral() const { return lateral_; }  // to the left of the course [m]
 
-  // Points of the footprint's circumference in the map.
+  // Points on the footprint's outline, in map coordinates.
   [[nodiscard]] std::vector<Eigen::Vector2d> Outline() const {
     constexpr int kPoints = 20;  // on each side
     const auto corners = settings_.footprint.Corners();
@@ -84,7 +84,7 @@ class CourseLoop {
     }
     return points;
   }
-  // Least distance of the footprint from the circles that the obstacles are [m].
+  // Least distance of the footprint from the obstacles, which are circles [m].
   [[nodiscard]] double Clearance() const {
     double least = 1e300;
     for (const Eigen::Vector2d& point : Outline()) {
@@ -116,14 +116,14 @@ class CourseLoop {
   double lateral_ = 0.0;
 };
 
-// Of two plans' inputs.
+// Largest difference between the inputs of two plans.
 inline double LargestDifference(std::span<const Input> a, std::span<const Input> b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).cwiseAbs().maxCoeff());
   return largest;
 }
 
-// On a winding road, among obstacles on both sides.
+// A drive on a winding road with obstacles on both sides.
 struct BusyRoad : CourseLoop {
   explicit BusyRoad(const LpvAffineSettings& with = {}) : CourseLoop(WindingRoad(30.0, 12.0), with) {
     obstacles() = {ObstacleAt(60.0, 0.5, 0.7), ObstacleAt(110.0, -0.5, 0.7)};

@@ -14,7 +14,7 @@ using testing::CourseLoop;
 using testing::StraightRoad;
 using testing::WindingRoad;
 
-// What became of a drive.
+// Figures of one drive.
 struct Figures {
   int not_solved = 0;
   double largest_lateral = 0.0;
@@ -24,7 +24,7 @@ struct Figures {
   double least_speed = 1e300;
 };
 
-// Drives for some time, or until `done`.
+// Drives for `seconds`, or until `done()` or a failed step.
 template <typename Done>
 Figures Drive(CourseLoop& loop, double seconds, Done done) {
   Figures figures;
@@ -170,7 +170,7 @@ TEST(LpvAffineDrive, ObstacleThatAppearsLateIsAvoided) {
 TEST(LpvAffineDrive, NearARoadBlockThatAppearsItBrakesAsHardAsItMay) {
   CourseLoop loop(StraightRoad(200.0, 12.0));
   Drive(loop, 1.0);
-  loop.obstacles() = {loop.ObstacleAt(loop.s() + 24.0, 0.0, 3.0)};  // 19 m before the front
+  loop.obstacles() = {loop.ObstacleAt(loop.s() + 24.0, 0.0, 3.0)};  // 19 m ahead of the front
   const Figures figures = Drive(loop, 8.0);
   EXPECT_EQ(figures.not_solved, 0);
   EXPECT_LT(std::abs(loop.z()[kUpsilon]), 0.1);

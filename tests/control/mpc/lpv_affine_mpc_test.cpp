@@ -29,11 +29,11 @@ TEST(LpvAffineMpc, SchedulingErrorIsTheDistanceFromThePredictionInRadii) {
   State& z = loop.z();
   z = loop.Ask().z[1];
   z[kNu] += 0.25;      // half a radius
-  z[kUpsilon] -= 0.2;  // a fifth
+  z[kUpsilon] -= 0.2;  // a fifth of one
   EXPECT_NEAR(loop.Ask().scheduling_error, 0.5, 1e-9);
 }
 
-// The trust region's half width of υ in the last step's QP.
+// Half width of the trust region in υ in the last step's QP, as a multiple of trust_radius.
 double RadiusOfSpeed(const CourseLoop& loop, const LpvAffineMpc& mpc) {
   const auto& stage = mpc.qp().stages[5];
   for (int j = 0; j < stage.row_count; ++j) {
@@ -93,7 +93,7 @@ TEST(LpvAffineMpc, ResetForgetsTheLastPlanAndTheSides) {
   EXPECT_NE(loop.Ask().u, first.u) << "the second step has a plan to start from";
 }
 
-// The plan of the second step, with so many iterations at most, for each of which the time is asked for.
+// The second step's plan after at most `iterations` iterations, with `time_left` as the clock.
 std::vector<Input> PlanWithin(int iterations, const std::function<bool()>& time_left) {
   LpvAffineSettings settings;
   settings.iterations = iterations;
@@ -166,13 +166,13 @@ TEST(LpvAffineMpc, ObstaclesThatDoNotFitAreNotIgnored) {
   for (int k = 0; k < 3; ++k) {
     loop.obstacles().assign(7, easy);
     ASSERT_EQ(loop.Ask().status,
-              SolverStatus::kSolved);  // the trust region's rows among them from the second on
+              SolverStatus::kSolved);  // from the second step on with the trust region's rows
   }
   for (const std::size_t count : {8u, 16u, 17u, 100u}) {
     loop.obstacles().assign(count, easy);
     EXPECT_NE(loop.Ask().status, SolverStatus::kSolved) << count;
   }
-  // Far away, but beyond the number that is decided about.
+  // Far away, but as many as get a decision; one more does not.
   loop.obstacles().assign(PassingPlanner::kMostObstacles, loop.ObstacleAt(280.0, -3.4, 0.5));
   EXPECT_EQ(loop.Ask().status, SolverStatus::kSolved);
   loop.obstacles().push_back(easy);

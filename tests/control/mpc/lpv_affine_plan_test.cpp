@@ -1,4 +1,4 @@
-// What the plans of LpvAffineMpc keep to, and what they give up where not everything can be had.
+// Constraints that the plans of LpvAffineMpc satisfy, and how these are relaxed where not all can be satisfied.
 #include <algorithm>
 #include <cmath>
 
@@ -48,7 +48,7 @@ TEST(LpvAffinePlan, PlanIsWhatTheNonlinearModelDoesWithItsInputs) {
     largest = std::max(largest, (z - plan.z.back()).head<2>().norm());
     loop.Drive(plan);
   }
-  EXPECT_LT(largest, 0.5);  // of 24 m, 2 s ahead
+  EXPECT_LT(largest, 0.5);  // [m] of 24 m, 2 s ahead
 }
 
 TEST(LpvAffinePlan, PlanStaysWithinTheFrictionThatThereIs) {
@@ -120,7 +120,7 @@ TEST(LpvAffinePlan, InputThatIsOutOfRangeComesBackAsFastAsItMay) {
 TEST(LpvAffinePlan, ObstacleThatIsTooNearIsNamedWithStepAndAmount) {
   CourseLoop loop(StraightRoad(300.0, 12.0));
   loop.PlaceAt(50.0, 6.0);
-  loop.obstacles() = {loop.ObstacleAt(50.0, -1.5, 0.8)};  // beside it; 0.9 + 0.3 + 0.8 would be due
+  loop.obstacles() = {loop.ObstacleAt(50.0, -1.5, 0.8)};  // beside it; 0.9 + 0.3 + 0.8 m are required
   loop.obstacles()[0].id = 7;
   const Plan& plan = loop.Ask();
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
@@ -132,9 +132,9 @@ TEST(LpvAffinePlan, ObstacleThatIsTooNearIsNamedWithStepAndAmount) {
 
 TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
   LpvAffineSettings settings;
-  settings.footprint = {.front = 0.0, .rear = 0.0, .half_width = 0.9};  // no end that turns outwards
+  settings.footprint = {.front = 0.0, .rear = 0.0, .half_width = 0.9};  // no end that swings outwards
   CourseLoop loop(StraightRoad(300.0, 12.0), settings);
-  loop.PlaceAt(50.0, 12.0, 3.5);  // 0.4 m over the edge, and the margin
+  loop.PlaceAt(50.0, 12.0, 3.5);  // 0.4 m over the edge, plus the margin
   const Plan& plan = loop.Ask();
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
   EXPECT_EQ(plan.relaxation.constraint.kind, ConstraintKind::kRoad);
@@ -142,13 +142,13 @@ TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
   EXPECT_NEAR(plan.relaxation.amount, 0.4 + settings.road_margin, 0.02);
 }
 
-// Closed on both sides, and no stopping any more: the two contradict one another.
+// The road is closed on both sides and it is too late to stop: road and obstacle contradict each other.
 TEST(LpvAffinePlan, WhereRoadAndObstacleContradictOneAnotherItGivesUpWhatIsMissing) {
   LpvAffineSettings settings;
   settings.road_margin = 0.2;
   CourseLoop loop(StraightRoad(300.0, 12.0), settings, {.left = 1.8, .right = -1.8});
   loop.PlaceAt(50.0, 12.0, 0.5);
-  // Left of it 1.8 − 0.2 − (−1.1 + 0.7 + 0.3) = 1.7 m are left of 1.8 m.
+  // The gap on its left is 1.8 − 0.2 − (−1.1 + 0.7 + 0.3) = 1.7 m; the vehicle needs 1.8 m.
   loop.obstacles() = {loop.ObstacleAt(58.0, -1.1, 0.7)};
   const Plan& plan = loop.Ask();
   ASSERT_EQ(plan.status, SolverStatus::kSolved);

@@ -18,7 +18,7 @@ LpvMpc Make(const LpvMpcSettings& settings = {}) {
   return {VehicleParameters{}, settings};
 }
 
-// Every bound on the inputs that are to be applied, the first against the input last applied.
+// Expects every input within its bounds and rates, the first relative to the input last applied.
 void ExpectInputsWithinBounds(const LpvMpcSettings& s, const Plan& plan, const Input& u_previous) {
   Input last = u_previous;
   for (const Input& u : plan.u) {
@@ -78,7 +78,7 @@ TEST(LpvMpc, PlanObeysTheModelThatTheQpWasBuiltWith) {
   loop.z()[kY] = 0.4;
   loop.z()[kPsi] = 0.02;
   const LpvModel model(VehicleParameters{});
-  std::vector<State> scheduled_z(9, loop.z());  // first step: from the measured state alone
+  std::vector<State> scheduled_z(9, loop.z());  // the first step is scheduled by the measured state alone
   std::vector<Input> scheduled_u(8, Input::Zero());
   while (loop.k() < 20) {
     const State measured = loop.z();
@@ -93,7 +93,7 @@ TEST(LpvMpc, PlanObeysTheModelThatTheQpWasBuiltWith) {
                                            testing::kStep, Discretisation::kEuler);
       EXPECT_LT((d.A * plan.z[i] + d.B * plan.u[i] - plan.z[i + 1]).cwiseAbs().maxCoeff(), 1e-9);
     }
-    for (std::size_t i = 0; i < 8; ++i) {  // ẑ of the next step is this plan, one step on
+    for (std::size_t i = 0; i < 8; ++i) {  // ẑ of the next step is this plan, shifted by one step
       scheduled_z[i] = plan.z[i + 1];
       scheduled_u[i] = plan.u[std::min<std::size_t>(i + 1, 7)];
     }
@@ -144,8 +144,8 @@ TEST(LpvMpc, WithoutTrustRegionNothingOfItIsReported) {
   }
 }
 
-// Euler's model of the lateral motion is unstable there, by a factor of 7 a step at 3 m/s; the QP has to be solved all
-// the same. Slower still its round-off comes near the solver's tolerance.
+// At low speed Euler's model of the lateral motion is unstable, by a factor of 7 per step at 3 m/s; the QP must still
+// be solved. At lower speeds its round-off approaches the solver's tolerance.
 TEST(LpvMpc, SlowVehicleIsStillSolvedFor) {
   for (const auto method : {Discretisation::kEuler, Discretisation::kZeroOrderHold}) {
     for (const int horizon : {8, 15, 40}) {
@@ -172,7 +172,7 @@ TEST(LpvMpc, SchedulingErrorIsTheDistanceFromThePredictionInRadii) {
   LpvMpc mpc = Make();
   ClosedLoop loop(mpc, StraightPath(100, 12.0));
   loop.z()[kY] = 0.4;
-  EXPECT_EQ(loop.Ask().scheduling_error, 0.0);  // nothing was predicted yet
+  EXPECT_EQ(loop.Ask().scheduling_error, 0.0);  // nothing has been predicted yet
   mpc.Reset();
   loop.DriveAsPredicted(loop.Ask());
   for (int i = 0; i < 10; ++i) {
@@ -181,7 +181,7 @@ TEST(LpvMpc, SchedulingErrorIsTheDistanceFromThePredictionInRadii) {
     loop.DriveAsPredicted(plan);
   }
   loop.z()[kNu] += 0.15;      // half a radius
-  loop.z()[kUpsilon] -= 0.1;  // a fifth
+  loop.z()[kUpsilon] -= 0.1;  // a fifth of one
   EXPECT_NEAR(loop.Ask().scheduling_error, 0.5, 1e-9);
 }
 
@@ -219,7 +219,7 @@ TEST(LpvMpc, WhatStandsInTheWayIsNamedWithTheLeastRelaxation) {
   LpvMpc mpc = Make();
   ClosedLoop loop(mpc, StraightPath(150, 12.0));
   loop.road() = {.left = 0.5, .right = -0.5};
-  loop.z()[kY] = 0.9;  // and going straight on: after one step still there
+  loop.z()[kY] = 0.9;  // heading straight on, so still there after one step
   ASSERT_EQ(loop.Ask().status, SolverStatus::kInfeasible);
   const auto violation = mpc.DiagnoseInfeasibility();
   ASSERT_TRUE(violation);
@@ -235,7 +235,7 @@ TEST(LpvMpc, WhatStandsInTheWayIsNamedWithTheLeastRelaxation) {
   EXPECT_EQ(mpc.DiagnoseInfeasibility()->constraint.index, 5);
 }
 
-// A winding road at 12 m/s with a circle of radius 1 m, 0.5 m beside the path: half a metre (and the margin) of shift.
+// A winding road at 12 m/s with a circle of radius 1 m, 0.5 m beside the path: a shift of 0.5 m (plus margin).
 struct WindingRoad {
   TimeReference reference =
       testing::PathOf(420, 12.0, [](int k) { return k < 80 ? 0.0 : 0.01 * std::sin((k - 80) * 0.012); });
@@ -308,7 +308,7 @@ TEST(LpvMpcAtAnObstacle, StandardControllerBecomesInfeasibleWhereTheTrustRegionD
 TEST(LpvMpcAtAnObstacle, ObstaclesThatDoNotFitMakeTheProblemInfeasible) {
   LpvMpc mpc = Make();
   ClosedLoop loop(mpc, StraightPath(100, 12.0));
-  // All the same and easy to pass.
+  // All obstacles are identical and easy to pass.
   const Obstacle easy{.X = 4.0, .Y = -0.99, .side = PassingSide::kLeft};
   loop.obstacles().assign(13, easy);
   ASSERT_EQ(loop.Ask().status, SolverStatus::kSolved);

@@ -33,24 +33,24 @@ class PlanCheckTest : public testing::Test {
 };
 
 TEST_F(PlanCheckTest, StraightOnAnEmptyRoadIsFine) {
-  EXPECT_FALSE(check_.Judge(At(20.0, 0.0), Constant(0.0, 0.0), {}));
+  EXPECT_FALSE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), {}));
 }
 
 TEST_F(PlanCheckTest, AnObstacleIsTouchedByTheFrontAndNotByTheCentreOfGravity) {
   const std::array obstacles{Obstacle{.id = 7, .X = 50.0, .Y = 0.0, .r_x = 1.0, .r_y = 0.5}};
-  const auto violation = check_.Judge(At(20.0, 0.0), Constant(0.0, 0.0), obstacles);
+  const auto violation = check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles);
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.kind, ConstraintKind::kObstacle);
   EXPECT_EQ(violation->constraint.index, 7);
-  // The front is at 20 + 1.95 + 0.75 i, the obstacle's edge at 49.
+  // The front is at 20 + 1.95 + 0.75 i [m], the obstacle's edge at 49 m.
   EXPECT_EQ(violation->constraint.step, static_cast<int>(std::ceil((49.0 - 21.95) / 0.75)));
   EXPECT_GT(violation->amount, 0.0);
 }
 
 TEST_F(PlanCheckTest, AnObstacleInsideTheRectangleIsTouched) {
-  // So small and so far between two steps that no edge of the rectangle meets it.
+  // It is so small, and so far from the edges at both steps, that no edge of the rectangle meets it.
   const std::array obstacles{Obstacle{.id = 1, .X = 20.75, .Y = 0.0, .r_x = 0.05, .r_y = 0.05}};
-  const auto violation = check_.Judge(At(20.0, 0.0), Constant(0.0, 0.0), obstacles);
+  const auto violation = check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles);
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.step, 1);
 }
@@ -58,7 +58,7 @@ TEST_F(PlanCheckTest, AnObstacleInsideTheRectangleIsTouched) {
 TEST_F(PlanCheckTest, PassingByLessThanAWidthIsTouching) {
   const auto passed_at = [&](double Y) {
     const std::array obstacles{Obstacle{.id = 1, .X = 40.0, .Y = Y, .r_x = 1.0, .r_y = 0.5}};
-    return check_.Judge(At(20.0, 0.0), Constant(0.0, 0.0), obstacles).has_value();
+    return check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles).has_value();
   };
   EXPECT_TRUE(passed_at(1.39));
   EXPECT_FALSE(passed_at(1.41));
@@ -67,34 +67,34 @@ TEST_F(PlanCheckTest, PassingByLessThanAWidthIsTouching) {
 }
 
 TEST_F(PlanCheckTest, AMovingObstacleIsMetWhereItWillBe) {
-  // It comes onto the road and is there when the vehicle is.
+  // Once moving, it enters the road and is there at the same time as the vehicle.
   Obstacle crossing{.id = 3, .X = 35.0, .Y = -5.0, .r_x = 0.5, .r_y = 0.5};
-  EXPECT_FALSE(check_.Judge(At(20.0, 0.0), Constant(0.0, 0.0), std::array{crossing}));
+  EXPECT_FALSE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{crossing}));
   crossing.velocity_Y = 5.0;
-  EXPECT_TRUE(check_.Judge(At(20.0, 0.0), Constant(0.0, 0.0), std::array{crossing}));
+  EXPECT_TRUE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{crossing}));
 }
 
 TEST_F(PlanCheckTest, ACornerOffTheRoadIsNamedWithItsStep) {
   const double psi = 0.1;
-  const auto violation = check_.Judge(At(20.0, 0.0, psi), Constant(0.0, 0.0), {});
+  const auto violation = check_.Validate(At(20.0, 0.0, psi), 20.0, Constant(0.0, 0.0), {});
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.kind, ConstraintKind::kRoad);
-  // Front left corner: 1.95 sin ψ + 0.9 cos ψ + 0.75 i sin ψ beyond 4 m.
+  // The front left corner is off the road once 1.95 sin ψ + 0.9 cos ψ + 0.75 i sin ψ exceeds 4 m.
   const double needed = (4.0 - 1.95 * std::sin(psi) - 0.9 * std::cos(psi)) / (0.75 * std::sin(psi));
   EXPECT_NEAR(violation->constraint.step, needed, 1.5);
 }
 
 TEST_F(PlanCheckTest, WhoIsOffTheRoadMayComeBack) {
-  EXPECT_FALSE(check_.Judge(At(20.0, 3.3, -0.05), Constant(0.0, 0.0), {}));
-  EXPECT_TRUE(check_.Judge(At(20.0, 3.3, 0.05), Constant(0.0, 0.0), {}));
+  EXPECT_FALSE(check_.Validate(At(20.0, 3.3, -0.05), 20.0, Constant(0.0, 0.0), {}));
+  EXPECT_TRUE(check_.Validate(At(20.0, 3.3, 0.05), 20.0, Constant(0.0, 0.0), {}));
 }
 
 TEST_F(PlanCheckTest, MoreThanTheTyresGiveIsFriction) {
-  const auto violation = check_.Judge(At(20.0, 0.0), Constant(0.12, 0.0), {});
+  const auto violation = check_.Validate(At(20.0, 0.0), 20.0, Constant(0.12, 0.0), {});
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.kind, ConstraintKind::kFriction);
-  EXPECT_TRUE(check_.Judge(At(20.0, 0.0), Constant(0.0, -7.5), {}));
-  EXPECT_FALSE(check_.Judge(At(20.0, 0.0), Constant(0.0, -6.0), {}));
+  EXPECT_TRUE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, -7.5), {}));
+  EXPECT_FALSE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, -6.0), {}));
 }
 
 }  // namespace

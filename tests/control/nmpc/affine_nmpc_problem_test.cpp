@@ -17,7 +17,7 @@ using testing::BusyRoad;
 using testing::Random;
 using testing::Span;
 
-// Near an obstacle, and a point that is no solution of anything.
+// The problem near an obstacle, and an arbitrary point, which is no solution.
 class AffineNmpcProblemTest : public ::testing::Test {
  protected:
   AffineNmpcProblemTest() {
@@ -26,7 +26,7 @@ class AffineNmpcProblemTest : public ::testing::Test {
     loop_->PlaceAt(57.0, 9.0, -1.0);
     task_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->course(), settings_);
     problem_ = std::make_unique<AffineNmpcProblem>(VehicleParameters{}, settings_);
-    task_->Begin(loop_->z(), loop_->obstacles());
+    task_->Begin(loop_->z(), loop_->s(), loop_->obstacles());
     EXPECT_TRUE(task_->BuildConstraints(task_->reference()));
     problem_->Set(*task_, {0.02, 0.3});
     x_ = random_.Filled<Eigen::Matrix<double, 400, 1>>(0.5).head(problem_->variables());
@@ -50,7 +50,7 @@ TEST_F(AffineNmpcProblemTest, JacobianIsThatOfTheRows) {
 }
 
 TEST_F(AffineNmpcProblemTest, HessianIsThatOfTheLagrangian) {
-  testing::ExpectHessianOfLagrangian(*problem_, x_, random_, 1e-5);  // it is by differences itself, in part
+  testing::ExpectHessianOfLagrangian(*problem_, x_, random_, 1e-5);  // parts of it are differences themselves
 }
 
 TEST_F(AffineNmpcProblemTest, ObstaclesHaveRowsAndTheRoadHasOthers) {
@@ -67,7 +67,7 @@ TEST_F(AffineNmpcProblemTest, ObstaclesHaveRowsAndTheRoadHasOthers) {
   EXPECT_GT(obstacles, 0);
 }
 
-// A trajectory of the model, and slacks that make up for what it violates: no row is violated, and less slack would not do.
+// A trajectory of the model with the slacks that its violations need: no row is violated, and less slack would not do.
 TEST_F(AffineNmpcProblemTest, PointOfATrajectoryHasTheSlacksThatItNeeds) {
   std::vector<State> z{task_->z()};
   const std::vector<Input> u(static_cast<std::size_t>(settings_.horizon), {0.02, 0.3});

@@ -26,7 +26,7 @@ LpvAffineSettings Converging() {
   return settings;
 }
 
-// QPs that have converged have solved the nonlinear problem.
+// Once converged, the QPs have solved the nonlinear problem.
 void ExpectThatLpvAffineConvergesToIt(CourseLoop& loop, int steps) {
   AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings(),
                   {.tolerance = 1e-6, .rounds = 20, .converged = 1e-5});
@@ -135,7 +135,7 @@ TEST(AffineNmpc, HoldsAtTheEndOfTheCourse) {
   EXPECT_LT(loop.z()[kUpsilon], 1e-9);
 }
 
-// The last solution, shifted, is nearly the next one.
+// The shifted last solution is close to the next one.
 TEST(AffineNmpc, WarmStartSavesIterations) {
   const auto iterations = [](bool warm) {
     BusyRoad loop;

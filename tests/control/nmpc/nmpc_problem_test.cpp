@@ -53,7 +53,7 @@ TEST(SingleTrackModel, JacobianAndHessianAreTheDerivativesOfTheMotion) {
   }
 }
 
-// A bend with two obstacles near by, and a point that is no solution of anything.
+// A bend with two obstacles nearby, and an arbitrary point, which is no solution.
 class NmpcProblemTest : public ::testing::Test {
  protected:
   NmpcProblemTest()
@@ -109,7 +109,7 @@ TEST_F(NmpcProblemTest, PatternFollowsTheNumberOfObstacles) {
 }
 
 TEST_F(NmpcProblemTest, ReferenceAtRestOnItselfViolatesNothingButWhatStandsInItsWay) {
-  // The reference moves as Euler's model says on the straight alone.
+  // Only on a straight does the reference obey Euler's model exactly.
   reference_ = testing::StraightPath(60, 12.0);
   reference_.Window(0, window_);
   obstacles_ = {{.id = 3, .X = 100.0, .Y = 0.0}};

@@ -11,7 +11,7 @@ namespace {
 using testing::ClosedLoop;
 using testing::StraightPath;
 
-// Where the vehicle goes straight, the LPV model says what the nonlinear one says, so both solve the same problem.
+// While the vehicle drives straight on, the LPV model equals the nonlinear one, so both solve the same problem.
 TEST(Nmpc, AgreesWithTheLpvmpcWhereTheModelIsExact) {
   for (const double slower : {0.0, 0.5, 1.5, -1.0}) {
     for (const double behind : {0.0, 0.3}) {
@@ -64,8 +64,8 @@ TEST(Nmpc, PlanObeysTheModelAndEveryBound) {
   EXPECT_LT((loop.z() - loop.z_ref()).head<2>().norm(), 0.3);
 }
 
-// What is predicted happens here: Euler's model is wrong by about a centimetre a step in the bend round the obstacle,
-// which a hard constraint does not forgive.
+// The vehicle moves as predicted here: in the bend round the obstacle Euler's model is off by about a centimetre per
+// step, which a hard constraint does not tolerate.
 TEST(Nmpc, PassesAnObstacleOnTheGivenSide) {
   for (const PassingSide side : {PassingSide::kLeft, PassingSide::kRight}) {
     NmpcSettings settings;
@@ -110,7 +110,7 @@ TEST(Nmpc, ValueThatIsNotFiniteIsANumericalFailure) {
   EXPECT_EQ(loop.Ask().status, SolverStatus::kSolved);
 }
 
-// The last solution, shifted, is nearly the next one.
+// The shifted last solution is close to the next one.
 TEST(Nmpc, WarmStartSavesIterations) {
   const auto iterations = [](bool warm) {
     Nmpc nmpc(VehicleParameters{}, {});
@@ -131,7 +131,7 @@ TEST(Nmpc, WarmStartSavesIterations) {
 TEST(Nmpc, LimitOfTimeIsToldAsSuch) {
   NmpcSettings settings;
   settings.max_cpu_time = 1e-6;
-  settings.horizon = 80;  // many ticks of the clock that counts CPU time
+  settings.horizon = 80;  // a solve takes many ticks of the CPU-time clock
   Nmpc nmpc(VehicleParameters{}, settings);
   ClosedLoop loop(nmpc, StraightPath(100, 12.0));
   loop.z()[kY] = 0.5;

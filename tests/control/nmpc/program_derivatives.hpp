@@ -1,4 +1,4 @@
-// A nonlinear program's derivatives against central differences.
+// Comparison of a nonlinear program's derivatives with central differences.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +34,7 @@ inline Eigen::VectorXd Gradient(const NonlinearProgram& program, const Eigen::Ve
   return gradient;
 }
 
-// Each place at most once, so a value must not meet another.
+// Expects each entry of the pattern at most once: no value may overwrite another.
 inline Eigen::MatrixXd Dense(const std::vector<NonlinearProgram::Entry>& pattern,
                              const Eigen::VectorXd& values, int rows, int columns) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows, columns);
@@ -57,7 +57,7 @@ inline void ExpectGradientOfCost(const NonlinearProgram& program, const Eigen::V
   const auto cost = [&](const Eigen::VectorXd& at) {
     return Eigen::VectorXd::Constant(1, program.Cost(Span(at)));
   };
-  // Of a quadratic function central differences are exact but for round-off, which a cost of 1e5 makes large.
+  // For a quadratic cost central differences are exact but for round-off, which is large at a cost of 1e5.
   const Eigen::VectorXd gradient = Gradient(program, x);
   EXPECT_LT((gradient - Differences(x, cost).row(0).transpose()).norm(), 1e-5 * gradient.norm());
 }
@@ -67,7 +67,7 @@ inline void ExpectJacobianOfRows(const NonlinearProgram& program, const Eigen::V
               Differences(x, [&](const Eigen::VectorXd& at) { return Rows(program, at); }));
 }
 
-// With multipliers from `random`.
+// The multipliers are drawn from `random`.
 inline void ExpectHessianOfLagrangian(const NonlinearProgram& program, const Eigen::VectorXd& x,
                                       Random& random, double tolerance = 1e-6) {
   constexpr double kSigma = 0.7;

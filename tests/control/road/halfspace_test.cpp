@@ -31,7 +31,7 @@ Vector2d OnEllipse(const Obstacle& o, double margin, double angle) {
   return Vector2d(o.X, o.Y) + Eigen::Rotation2Dd(o.heading) * local;
 }
 
-// Largest signed distance of the ellipse: 0 where the half-space's edge is a tangent.
+// Largest signed distance of the ellipse's points; 0 if the half-space's edge is a tangent.
 double LargestDistance(const HalfSpace& halfspace, const Obstacle& o, double margin) {
   double largest = -1e300;
   for (int k = 0; k < 4000; ++k) {
@@ -77,11 +77,11 @@ TEST(ObstacleHalfSpace, IsTheTangentWhereTheRoadsNormalLeavesTheEllipse) {
     const auto halfspace = ObstacleHalfSpace(obstacle, At(point.x(), point.y(), psi), margin);
     ASSERT_TRUE(halfspace);
     EXPECT_NEAR(std::hypot(halfspace->a, halfspace->b), 1.0, 1e-12);
-    // The ellipse lies beyond the edge and touches it (sampled, so up to a chord's height).
+    // The ellipse is beyond the edge and touches it, up to the height of a chord between samples.
     const double largest = LargestDistance(*halfspace, obstacle, margin);
     EXPECT_LT(largest, 1e-9);
     EXPECT_GT(largest, -1e-4);
-    // From the point along the road's normal, the edge is met on the circumference.
+    // The road's normal through the point meets the edge on the circumference.
     const Vector2d out = (left ? 1.0 : -1.0) * Vector2d(-std::sin(psi), std::cos(psi));
     const double along = halfspace->a * out.x() + halfspace->b * out.y();
     ASSERT_GT(along, 0.0) << "the way out leads into the half-space";
@@ -96,7 +96,7 @@ TEST(ObstacleHalfSpace, OfACircleIsAtItsRadiusFromTheCentre) {
   const Obstacle circle{
       .X = 10.0, .Y = 0.3, .r_x = 1.0, .r_y = 1.0, .heading = 0.7, .side = PassingSide::kLeft};
   const auto halfspace = ObstacleHalfSpace(circle, At(10.0, 0.0, 0.0), 0.0);
-  ASSERT_TRUE(halfspace);  // straight above the centre
+  ASSERT_TRUE(halfspace);  // the point is above the centre
   EXPECT_NEAR(halfspace->a, 0.0, 1e-12);
   EXPECT_NEAR(halfspace->b, 1.0, 1e-12);
   EXPECT_NEAR(halfspace->c, 1.3, 1e-12);
@@ -110,7 +110,7 @@ TEST(ObstacleHalfSpace, OfACircleIsAtItsRadiusFromTheCentre) {
 TEST(ObstacleHalfSpace, UnknownSideIsTheShorterWayOut) {
   Obstacle circle{.X = 0.0, .Y = -0.2, .side = PassingSide::kUnknown};
   EXPECT_GT(ObstacleHalfSpace(circle, At(0.0, 0.0, 0.0), 0.0)->b, 0.0);
-  EXPECT_GT(ObstacleHalfSpace(circle, At(0.0, 0.0, kPi), 0.0)->b, 0.0);  // the same, driven the other way
+  EXPECT_GT(ObstacleHalfSpace(circle, At(0.0, 0.0, kPi), 0.0)->b, 0.0);  // the same when driven the other way
   circle.Y = 0.2;
   EXPECT_LT(ObstacleHalfSpace(circle, At(0.0, 0.0, 0.0), 0.0)->b, 0.0);
 }

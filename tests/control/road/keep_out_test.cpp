@@ -31,7 +31,7 @@ Vector2d OnEllipse(const Obstacle& o, double margin, double angle) {
   return Vector2d(o.X, o.Y) + Eigen::Rotation2Dd(o.heading) * local;
 }
 
-// The circumference's point that lies farthest in a direction, from the obstacle's centre.
+// The circumference's farthest point in a direction, relative to the obstacle's centre.
 Vector2d Farthest(const Obstacle& o, double margin, const Vector2d& direction) {
   Vector2d farthest = Vector2d::Zero();
   for (int k = 0; k < 720; ++k) {
@@ -76,7 +76,7 @@ struct Encounter {
   [[nodiscard]] std::optional<HalfSpace> Passing() const {
     return PassingHalfSpace(obstacle, side, z, psi_road, kCar, margin, 1.0);
   }
-  // To the side on which it is passed.
+  // Unit vector to the side on which the obstacle is passed.
   [[nodiscard]] Vector2d Aside() const {
     return side == PassingSide::kLeft ? Left(psi_road) : Vector2d(-Left(psi_road));
   }
@@ -142,7 +142,7 @@ TEST(PassingHalfSpace, BeforeTheObstacleItsEdgeTurnsTowardsTheVehicle) {
   const auto side = [&](double along, PassingSide passing) {
     return *PassingHalfSpace(circle, passing, AtObstacle(circle, 0.0, along, 0.0), 0.0, kCar, 0.0, 1.0);
   };
-  // The front is over the circle at x = −1, where it rises by 1/√3.
+  // The front is 1 m short of the circle's centre, where the circumference has slope 1/√3.
   const HalfSpace before = side(-3.0, PassingSide::kLeft);
   EXPECT_NEAR(-before.a / before.b, 1.0 / std::sqrt(3.0), 1e-9);
   const HalfSpace behind = side(3.3, PassingSide::kLeft);

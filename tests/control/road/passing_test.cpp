@@ -19,7 +19,7 @@ class Passing : public ::testing::Test {
                                              .road_margin = 0.1,
                                              .grip = 5.0};
 
-  // `ahead` of the vehicle's centre, `Y` left of the middle of the road.
+  // A circle `ahead` of the vehicle's centre and `Y` left of the middle of the road [m].
   static Obstacle At(double ahead, double Y, double radius, PassingSide side = PassingSide::kUnknown) {
     return {.X = kPlace + ahead, .Y = Y, .r_x = radius, .r_y = radius, .side = side};
   }
@@ -59,7 +59,7 @@ TEST_F(Passing, SideThatIsGivenIsObeyed) {
 }
 
 TEST_F(Passing, WhereNoGapIsWideEnoughItStops) {
-  // Between the obstacle with its margin and the road's edge with its: 4 − 0.1 − (2 + 0.3) = 1.6 < 1.8.
+  // Room between obstacle and road edge, each with its margin: 4 − 0.1 − (2 + 0.3) = 1.6 m < 1.8 m.
   EXPECT_EQ(DecideAnew(At(40.0, 0.0, 2.0)), Passage::kStop);
   EXPECT_NE(DecideAnew(At(40.0, 0.0, 1.75)), Passage::kStop);
   EXPECT_EQ(DecideAnew(At(40.0, 0.25, 2.0)), Passage::kRight);
@@ -72,7 +72,7 @@ TEST_F(Passing, ObstaclesSideBySideArePassedInTheMiddle) {
 }
 
 TEST_F(Passing, ObstaclesBetweenWhichItDoesNotFitArePassedAsOne) {
-  // Each alone would be passed on its free side; from one to the other there is no way.
+  // Each alone would be passed on its free side, but the vehicle cannot get from one gap to the other.
   const auto together = Decide({At(40.0, 1.6, 1.5), At(45.0, -1.6, 1.5)});
   EXPECT_EQ(together[0], Passage::kStop);
   EXPECT_EQ(together[1], Passage::kStop);
@@ -102,29 +102,29 @@ TEST_F(Passing, DecisionIsKeptWhileItCanBe) {
       const Obstacle noisy = At(40.0, (k % 2 == 0 ? -0.1 : 0.1), 0.6);
       EXPECT_EQ(Decide(noisy), first);
     }
-    // Not when the other side is much better or the gap has closed.
+    // The decision changes where the other side is much better.
     EXPECT_NE(Decide(At(40.0, -1.0 * sign, 0.6)), first);
   }
   EXPECT_NE(DecideAnew(At(40.0, -0.1, 0.6)), DecideAnew(At(40.0, 0.1, 0.6))) << "noise would turn the wheel";
 }
 
 TEST_F(Passing, ObstacleThatMovesIsJudgedWhereItIsMet) {
-  Obstacle crossing = At(38.6, -3.0, 0.6);  // its near end is 36 m before the front: 3 s
+  Obstacle crossing = At(38.6, -3.0, 0.6);  // its near end is 36 m ahead of the front: met in 3 s
   EXPECT_EQ(DecideAnew(crossing), Passage::kLeft);
-  crossing.velocity_Y = 1.5;  // then at 1.5 m
+  crossing.velocity_Y = 1.5;  // then at Y = 1.5 m
   EXPECT_EQ(DecideAnew(crossing), Passage::kRight);
   crossing.velocity_Y = 3.0;  // then off the road on the other side
   EXPECT_EQ(DecideAnew(crossing), Passage::kRight);
 
-  // Slower than the vehicle: met later. Oncoming: sooner.
+  // An obstacle that moves ahead is met later.
   Obstacle slow = At(38.6, -3.0, 0.6);
-  slow.velocity_X = 8.0;  // 9 s: does not matter yet
+  slow.velocity_X = 8.0;  // met in 9 s: does not matter yet
   slow.velocity_Y = 0.4;
   EXPECT_EQ(DecideAnew(slow), Passage::kIgnored);
-  slow.velocity_X = 7.0;  // 7.2 s, then at −0.12 m
+  slow.velocity_X = 7.0;  // met in 7.2 s at Y = −0.12 m
   EXPECT_EQ(DecideAnew(slow), Passage::kLeft);
-  slow.velocity_X = 6.5;  // 6.5 s, at −0.38 m
-  slow.velocity_Y = 0.6;  // at 0.93 m
+  slow.velocity_X = 6.5;  // met in 6.5 s at Y = −0.38 m
+  slow.velocity_Y = 0.6;  // at Y = 0.93 m
   EXPECT_EQ(DecideAnew(slow), Passage::kRight);
 }
 
@@ -144,7 +144,7 @@ TEST_F(Passing, ObstacleThatIsFollowedAtItsOwnSpeedIsNotIgnored) {
 }
 
 TEST_F(Passing, WhereItIsTooLateToStopAGapIsTakenThatLeavesTheMarginsNoRoom) {
-  const Obstacle tight = At(8.0, -0.5, 2.6);  // 0.3 m of the margins are lacking, of 0.4 m
+  const Obstacle tight = At(8.0, -0.5, 2.6);  // the gap lacks 0.3 m of the margins' 0.4 m
   EXPECT_EQ(DecideAnew(tight, 0.0, kSpeed), Passage::kLeft);
   EXPECT_EQ(DecideAnew(tight, 0.0, 3.0), Passage::kStop);
   Obstacle other = tight;
@@ -169,7 +169,7 @@ TEST_F(Passing, ShiftThatNeedsMoreThanTheGripIsStoppedForWhileThatIsPossible) {
   constexpr double kSlow = 6.0;
   const auto fork = [](double ahead) {
     return At(ahead, -0.8, 2.5);
-  };  // 2.9 m to the left, the right is closed
+  };  // a shift of 2.9 m to the left; the right is closed
   EXPECT_EQ(DecideAnew(fork(30.0), 0.0, kSlow), Passage::kLeft);
   EXPECT_EQ(DecideAnew(fork(10.0), 0.0, kSlow), Passage::kStop);
   EXPECT_EQ(DecideAnew(fork(8.0), 0.0, kSlow), Passage::kLeft) << "too late";

@@ -15,9 +15,9 @@ namespace {
 constexpr double kTs = 0.05;
 constexpr double kRadius = 40.0;
 constexpr double kSpeed = 12.0;
-constexpr double kSlowest = 2.0;  // of the dynamic model, which needs υ > 0 [m/s]
+constexpr double kSlowest = 2.0;  // least speed for the dynamic model, which needs υ > 0 [m/s]
 
-// A circle to the left about the origin, from (R, 0) on.
+// A circle to the left about the origin, starting at (R, 0).
 std::vector<Eigen::Vector2d> Circle(double metres) {
   std::vector<Eigen::Vector2d> points;
   for (double s = 0.0; s <= metres; s += kSpeed * kTs) {
@@ -32,7 +32,7 @@ class Stopping {
   explicit Stopping(const TimeReference& reference)
       : reference_(&reference), odometer_({}, kTs, reference), stop_({}, reference) {}
 
-  // The vehicle is at `z`, beside sample k; its path leads as far beside the reference as it is.
+  // Starts at `z`, beside sample k; the path keeps the vehicle's offset from the reference.
   void Start(const State& z, int k) {
     odometer_.Start(z, k);
     const State beside = reference_->At(odometer_.motion().nearest);
@@ -53,11 +53,11 @@ class Stopping {
   double offset_ = 0.0;
 };
 
-// The nonlinear model in a steady turn, `offset` to the left of the circle, until it is slow.
+// Stops the nonlinear model from a steady turn, `offset_` to the left of the circle, until it is at kSlowest.
 class PathStopInACurve : public ::testing::Test {
  protected:
   struct Figures {
-    double largest_deviation = 0.0;  // from the circle that the path is [m]
+    double largest_deviation = 0.0;  // from the circular path [m]
     double largest_step = 0.0;       // of δ from one cycle to the next [rad]
     double smallest_delta = 10.0;
   };
@@ -71,7 +71,7 @@ class PathStopInACurve : public ::testing::Test {
     z_[kPsi] = M_PI / 2.0 - std::atan2(z_[kNu], z_[kUpsilon]);
   }
 
-  // δ of the model's steady turn.
+  // Steering angle of the model in a steady turn [rad].
   static double SteadySteering(double radius) {
     const VehicleParameters v;
     const double wheelbase = v.l_f + v.l_r;

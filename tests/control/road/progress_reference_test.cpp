@@ -35,7 +35,7 @@ TEST(ProgressReference, OnABendItsStatesAreThoseOfSteadyCornering) {
     for (std::size_t i = 0; i < reference.u.size(); ++i) {
       const State& z = reference.z[i];
       const State derivative = model.Derivative(z, reference.u[i]);
-      // Against 3 m/s² across; what remains is cos δ.
+      // The lateral acceleration is 3 m/s²; the remainder is due to cos δ.
       EXPECT_LT(std::abs(derivative[kNu]), 0.03) << speed;
       EXPECT_LT(std::abs(derivative[kOmega]), 0.03) << speed;
       const RoutePoint point = course.At(reference.s[i]);

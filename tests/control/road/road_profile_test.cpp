@@ -59,26 +59,6 @@ TEST(RoadProfile, ProjectionStaysOnTheLegThatTheHintIsOn) {
   EXPECT_NEAR(course.Project(between, back - 2.0).s, back, 0.05);
 }
 
-TEST(RoadProfile, CircuitBeginsWithItsFirstLap) {
-  const Route route = CircularRoad(kRadius, 3.0, 8.0);
-  const RoadProfile course(route, {}, {});
-  const double lap = 2.0 * kPi * kRadius;
-  for (double s = 2.0; s < lap - 2.0; s += 3.1) {
-    const RoutePoint point = route.At(s);
-    const RouteProjection place = course.Find(Beside(point, 1.0), point.psi + 0.3 - 2.0 * kPi);
-    EXPECT_NEAR(place.s, s, 0.05);
-    EXPECT_NEAR(place.lateral, 1.0, 0.005);
-  }
-}
-
-TEST(RoadProfile, OfTwoLegsThatOneIsFoundThatTheVehicleHeadsAlong) {
-  const Route route = HairpinRoad(60.0, 6.0, 5.0);
-  const RoadProfile course(route, {}, {});
-  const Eigen::Vector2d nearer_to_the_first(20.0, 1.5), nearer_to_the_second(20.0, 4.5);
-  EXPECT_NEAR(course.Find(nearer_to_the_second, 0.4).s, 20.0, 0.05);
-  EXPECT_NEAR(course.Find(nearer_to_the_first, kPi - 0.4).s, route.length() - 20.0, 0.05);
-}
-
 TEST(RoadProfile, SpeedKeepsToTheTargetTheCurvesAndTheBrakes) {
   const SpeedLimits limits{.lateral = 2.0, .acceleration = 1.5, .deceleration = 2.5};
   const Route route = WindingRoad(kRadius, 14.0);

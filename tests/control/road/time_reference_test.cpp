@@ -114,6 +114,14 @@ TEST(Reference, WindowPastTheEndGoesOnStraight) {
   }
 }
 
+TEST(Reference, ArcLengthIsThatOfTheCircleAndGoesOnAtTheLastSpeed) {
+  const double radius = 30.0, angle = 0.02;
+  const TimeReference reference(Circle(radius, angle, 100), kStep);
+  for (const int k : {0, 1, 50, 99, 100, 150}) {
+    EXPECT_NEAR(reference.ArcLength(k), k * radius * angle, 1e-4 * k * radius * angle) << k;
+  }
+}
+
 TEST(Reference, RefusedPointIsNamed) {
   std::vector<Vector2d> points = Line(0.0, 10.0, 10);
   points[6] = points[5];
