@@ -168,9 +168,9 @@ struct HorizonPoint {
 struct ControllerDiagnostics {
   ModeCause cause = ModeCause::kStart;  // why the present mode was entered
   Mode previous_mode = Mode::kInit;     // mode before the present one
-  double countdown = 12.75;         // until the stop begins [s]; 12.75: 12.75 s or longer, or none
-  std::uint8_t faulty_message = 0;  // VAL_ FaultyMessage of vehicle.dbc, 0: none
-  std::uint8_t frame_fault = 0;     // VAL_ FrameFault of vehicle.dbc, 0: none
+  double countdown = 12.75;             // until the stop begins [s]; 12.75: 12.75 s or longer, or none
+  std::uint8_t faulty_message = 0;      // VAL_ FaultyMessage of vehicle.dbc, 0: none
+  std::uint8_t frame_fault = 0;         // VAL_ FrameFault of vehicle.dbc, 0: none
   double cycle_latency = 0.0;       // last cycle started by a state: its arrival to both commands sent [s]
   std::uint16_t plans_refused = 0;  // since start, modulo 1024
 };

@@ -19,7 +19,7 @@ int HexValue(char digit) {
   return -1;
 }
 
-// Reads a line from left to right. The first failure is kept, and everything after it fails too.
+// Reads a line from left to right. The first failure is kept; later attempts to read fail, too.
 class Reader {
  public:
   explicit Reader(std::string_view line) : line_(line) {}
@@ -46,7 +46,7 @@ class Reader {
     return Accept(text) || Fail("expected " + name);
   }
 
-  // The characters up to the next of `ends` or the end of the line.
+  // Takes the characters before the next of `ends` or before the end of the line.
   std::string_view Until(std::string_view ends) {
     const std::size_t begin = position_;
     position_ = std::min(line_.find_first_of(ends, begin), line_.size());
@@ -55,7 +55,7 @@ class Reader {
 
   void SkipBlanks() { position_ = std::min(line_.find_first_not_of(kBlanks, position_), line_.size()); }
 
-  // The value of the next hexadecimal digit, which is consumed, or -1.
+  // Takes the next hexadecimal digit and returns its value; -1 if there is none.
   int HexDigit() {
     const int value = AtEnd() ? -1 : HexValue(line_[position_]);
     if (value >= 0) ++position_;

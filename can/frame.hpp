@@ -1,4 +1,4 @@
-// A CAN frame as it stands on the wire, with the time at which it was received.
+// A CAN frame as it appears on the wire, with the time at which it was received.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr std::size_t kMaxFdLength = 64;
 
 enum class FrameKind : std::uint8_t {
   kData,    // classic or FD data frame
-  kRemote,  // classic remote frame: `length` is the length asked for, there is no payload
+  kRemote,  // classic remote frame: `length` is the requested length, there is no payload
   kError,   // error frame of the interface: `id` holds the error class bits (linux/can/error.h)
 };
 
@@ -29,7 +29,7 @@ struct Frame {
   FrameKind kind = FrameKind::kData;
   bool fd = false;
   std::uint8_t fd_flags = 0;  // CANFD_BRS, CANFD_ESI
-  std::uint8_t length = 0;    // bytes of payload: 0..8, of an FD frame 0..8, 12, 16, 20, 24, 32, 48, 64
+  std::uint8_t length = 0;    // of the payload [bytes]: 0..8; FD also 12, 16, 20, 24, 32, 48, 64
   std::array<std::byte, kMaxFdLength> data{};
   Time timestamp{};
 
@@ -38,10 +38,10 @@ struct Frame {
   }
 };
 
-// True if the frame can stand on a bus: id and length are in range, and only a data frame is FD.
+// True if the frame can occur on a bus: its id and length are in range, and it is FD only if it is a data frame.
 [[nodiscard]] bool IsValid(const Frame& frame);
 
-// True if both would look the same on the wire; time stamps are not compared.
+// True if both look the same on the wire; time stamps are not compared.
 [[nodiscard]] bool SameOnWire(const Frame& a, const Frame& b);
 
 }  // namespace can

@@ -11,8 +11,8 @@
 
 namespace can {
 
-// The name of the driver, not the absence of a device in sysfs: /sys may show another network namespace, and a serial
-// line has no such device either. A Unix socket will do.
+// The driver's name decides, not the absence of a device in sysfs: /sys may show another network namespace, and a
+// serial line has no such device either. A Unix socket suffices for the ioctl.
 bool IsVirtual(const std::string& interface) {
   ethtool_drvinfo info{};
   info.cmd = ETHTOOL_GDRVINFO;

@@ -1,11 +1,11 @@
-// What kind of interface it is.
+// The kind of a network interface.
 #pragma once
 
 #include <string>
 
 namespace can {
 
-// True if no vehicle can hang on it: its driver is vcan or vxcan. False where that cannot be told.
+// True if the driver is vcan or vxcan, so that no vehicle can be attached. False if the driver cannot be determined.
 [[nodiscard]] bool IsVirtual(const std::string& interface);
 
 }  // namespace can

@@ -24,7 +24,7 @@ constexpr std::uint8_t kFdFlags = CANFD_BRS | CANFD_ESI;
 
 enum class Lookup { kFound, kNoInterface, kNotCan, kFailed };
 
-// The index of the CAN interface of that name. A Unix socket will do: every kernel and sandbox has it.
+// Finds the index of the CAN interface `name`. A Unix socket suffices: every kernel and sandbox has it.
 Lookup FindInterface(const std::string& name, int& index) {
   ifreq request{};
   if (name.empty() || name.size() >= sizeof(request.ifr_name)) return Lookup::kNoInterface;
@@ -62,7 +62,7 @@ bool Bind(int fd, int interface_index) {
 }
 
 bool Configure(int fd, const SocketOptions& options) {
-  // Only with CAP_NET_ADMIN does the kernel grant more than net.core.rmem_max.
+  // The kernel grants more than net.core.rmem_max only with CAP_NET_ADMIN.
   if (!SetOption(fd, SOL_SOCKET, SO_RCVBUFFORCE, options.receive_buffer_bytes) &&
       !SetOption(fd, SOL_SOCKET, SO_RCVBUF, options.receive_buffer_bytes)) {
     return false;
@@ -79,7 +79,7 @@ int GrantedReceiveBuffer(int fd) {
   int bytes = 0;
   socklen_t size = sizeof(bytes);
   ::getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, &size);
-  return bytes / 2;  // the kernel tells twice what it was asked for
+  return bytes / 2;  // the kernel reports twice the requested size
 }
 
 // canfd_frame has the layout of can_frame up to the payload.
@@ -142,7 +142,7 @@ Socket::Socket(std::string interface, SocketOptions options)
       ThrowErrno(errno, interface_);
   }
   fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
-  // Bound last: until then nothing is received, so no frame comes past the filters or without a stamp.
+  // Bind comes last: nothing is received before it, so no frame bypasses the filters or lacks a time stamp.
   if (fd_ < 0 || !Configure(fd_, options_) || !Bind(fd_, index)) {
     const int error = errno;
     if (fd_ >= 0) ::close(fd_);
@@ -250,7 +250,7 @@ SendStatus Socket::Send(const Frame& frame) {
 
 bool Socket::Reopen() {
   int index = 0;
-  // The kernel forgot the filters together with the deleted interface; the other options stay.
+  // The kernel drops the filters with a deleted interface; the other options stay.
   return FindInterface(interface_, index) == Lookup::kFound && SetFilters(fd_, options_.filters) &&
          Bind(fd_, index);
 }

@@ -6,9 +6,9 @@
 //     if (socket.Receive(received) == can::ReceiveStatus::kFrame) Use(received.frame);
 //
 // Nothing blocks, and neither Receive nor Send allocates. Errors while opening throw, later ones are
-// statuses. An interface that goes down and comes up again needs nothing done: the socket stays bound to it.
-// One that was deleted (kInterfaceGone) is bound to again by Reopen, as soon as there is one of the same
-// name. The kernel tells such an event once, to the first of Receive and Send that is called after it.
+// statuses. An interface that goes down and comes up again needs no action: the socket stays bound to it.
+// After an interface was deleted (kInterfaceGone), Reopen binds to a new one of the same name as soon as it
+// exists. The kernel reports such an event once, to the first Receive or Send after it.
 #pragma once
 
 #include <chrono>
@@ -20,33 +20,33 @@
 
 namespace can {
 
-// Lets a frame through if (its id ^ `id`) & `mask` is zero, where the bits 31 and 30 of the frame's id tell
-// extended and remote frames (linux/can.h). So {0x123, 0x7FF} matches the extended id 00000123 too.
+// Accepts a frame if (its id ^ `id`) & `mask` is zero, where bits 31 and 30 of the frame's id mark extended and
+// remote frames (linux/can.h). So {0x123, 0x7FF} also matches the extended id 00000123.
 struct Filter {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;
 };
 
-// Data frames of this very id only.
+// Accept only data frames with exactly this id.
 [[nodiscard]] Filter ExactStandardId(std::uint32_t id);
 [[nodiscard]] Filter ExactExtendedId(std::uint32_t id);
 
 struct SocketOptions {
-  std::vector<Filter> filters{};           // a frame is received if any lets it through; none: every frame is
+  std::vector<Filter> filters{};           // a frame is received if any accepts it; empty: all are
   std::uint32_t error_mask = 0;            // error classes received as error frames (linux/can/error.h)
-  bool receive_own = false;                // frames sent through this socket are received too, marked as own
+  bool receive_own = false;                // also receive frames sent through this socket, marked as own
   bool fd_frames = false;                  // CAN FD frames can be sent and received
-  int receive_buffer_bytes = 1024 * 1024;  // asked for; about 770 bytes a frame. The kernel may grant less.
+  int receive_buffer_bytes = 1024 * 1024;  // requested; about 770 bytes per frame. The kernel may grant less.
 };
 
 struct Received {
   Frame frame;       // stamped by the kernel when it arrived
-  bool own = false;  // sent through this very socket
+  bool own = false;  // sent through this socket
 };
 
 enum class ReceiveStatus {
   kFrame,          // a frame was received
-  kWouldBlock,     // there is none now
+  kWouldBlock,     // no frame is available now
   kInterfaceDown,  // the interface went down; kWouldBlock follows until it is up again
   kInterfaceGone,  // the interface was deleted; kWouldBlock follows until Reopen succeeds
   kError,          // any other error, see last_error
@@ -61,7 +61,7 @@ enum class SendStatus {
   kError,          // any other error, see last_error
 };
 
-// Follows a counter of 32 bits that wraps.
+// Follows a 32-bit counter that wraps around.
 class DropCounter {
  public:
   void Update(std::uint32_t counter) {
@@ -78,7 +78,7 @@ class DropCounter {
 class Socket {
  public:
   // Throws std::runtime_error, which names the interface, if there is no such interface, if it is not a CAN
-  // interface, or if the kernel refuses the socket. An interface that is down is accepted: Receive tells it.
+  // interface, or if the kernel refuses the socket. An interface that is down is accepted: Receive reports it.
   explicit Socket(std::string interface, SocketOptions options = {});
   ~Socket();
   Socket(Socket&& other) noexcept;
@@ -91,16 +91,16 @@ class Socket {
 
   [[nodiscard]] SendStatus Send(const Frame& frame);
 
-  // Binds to the interface that has the name now; false if there is none or it is not CAN. The file
-  // descriptor stays the same, and with it its place in an epoll instance. Harmless if nothing has changed.
+  // Binds to the interface that has the name now; false if there is none, it is not CAN, or binding fails. The
+  // file descriptor stays the same, and so does its place in an epoll instance. Harmless if nothing has changed.
   [[nodiscard]] bool Reopen();
 
-  // For epoll and poll: readable when a frame or an error is there for Receive.
+  // For epoll and poll: readable when Receive has a frame or an error to return.
   [[nodiscard]] int fd() const { return fd_; }
   [[nodiscard]] const std::string& interface() const { return interface_; }
   // Frames that the kernel dropped because the receive buffer was full, as of the last frame received.
   [[nodiscard]] std::uint64_t dropped() const { return drops_.total(); }
-  // Size of the receive buffer that the kernel granted.
+  // Size of the receive buffer granted by the kernel [bytes].
   [[nodiscard]] int receive_buffer_bytes() const { return receive_buffer_bytes_; }
   // The errno of the last kError.
   [[nodiscard]] int last_error() const { return last_error_; }
@@ -114,7 +114,7 @@ class Socket {
   DropCounter drops_;
 };
 
-// Waits until the file descriptor is readable or has an error to tell, at most `timeout`. False on time-out.
+// Waits until the file descriptor is readable or has an error, at most `timeout`. False on time-out or if poll fails.
 [[nodiscard]] bool WaitReadable(int fd, std::chrono::milliseconds timeout);
 
 }  // namespace can

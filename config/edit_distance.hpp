@@ -1,4 +1,4 @@
-// Edit distance of two words, to suggest the key that was meant.
+// Edit distance between two words, used to suggest the intended key.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace config {
 
-// Least number of inserted, removed and replaced characters that turn `a` into `b`.
+// The least number of insertions, removals and replacements of characters that turn `a` into `b`.
 [[nodiscard]] std::size_t EditDistance(std::string_view a, std::string_view b);
 
 }  // namespace config

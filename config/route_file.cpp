@@ -42,8 +42,8 @@ control::RoutePiece ReadPiece(const TomlTable& table) {
   return piece;
 }
 
-// The route that `make` gives from what stands under `key`. A route is kept in memory as points a cycle apart,
-// hence the limits.
+// Returns the route that `make` builds from the value of `key`. A route is kept in memory as points one cycle
+// apart, hence the limits.
 template <typename Make>
 control::Route Checked(const TomlTable& table, std::string_view key, double length, const Make& make) {
   if (length > kLongestRoute) {

@@ -1,4 +1,4 @@
-// A route file in TOML: the reference path with its target speed, and the width of the road about it.
+// A route file in TOML: the reference path with its target speed, and the width of the road.
 //
 //   [route]
 //   start = {X = 0.0, Y = 0.0, psi = 0.0}    # [m], [m], [rad]
@@ -8,15 +8,15 @@
 //     {kind = "clothoid", length = 40.0, curvature_from = 0.0, curvature_to = 0.0125},
 //     {kind = "arc", length = 60.0, curvature = 0.0125},
 //     {kind = "arc", length = 60.0, radius = 80.0, turn = "left"},    # the same
-//     {kind = "straight", length = 50.0, speed = 8.0},                # of any piece: target speed at its end
+//     {kind = "straight", length = 50.0, speed = 8.0},                # any piece: target speed at its end
 //   ]
-//   # instead of start and pieces, a CSV file with the header X,Y; a natural cubic spline goes through its points:
+//   # instead of start and pieces: a CSV file with the header X,Y, whose points a natural cubic spline joins
 //   # waypoints = "points.csv"
-//   [road]                                   # from the path to the road's edges, both positive [m]
+//   [road]                                   # distances from the path to the road's edges, both positive [m]
 //   left = 4.0
 //   right = 4.0
 //
-// A route is at most 1000 km long and takes at most 100,000 s at its target speed. Paths are relative to the file.
+// A route is at most 1000 km long and takes at most 100,000 s at its target speed. Paths are relative to this file.
 #pragma once
 
 #include <filesystem>
@@ -31,7 +31,7 @@ struct RouteFile {
   control::RoadBounds road;
 };
 
-// Throws ConfigError that names file, line, key, value and what is allowed.
+// Throws ConfigError, which names file, line, key, value and what is allowed.
 [[nodiscard]] RouteFile LoadRoute(const std::filesystem::path& file);
 
 }  // namespace config

@@ -1,4 +1,4 @@
-// The whole text of a file, and text made fit for a message of one line.
+// Reads whole text files, and makes text fit for a one-line message.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@ namespace config {
 [[nodiscard]] std::ifstream OpenTextFile(const std::filesystem::path& file);
 [[nodiscard]] std::string ReadTextFile(const std::filesystem::path& file);
 
-// `text` without control characters, cut after `longest` bytes: an error stays on one line whatever stands in the
-// file.
+// Returns `text` with '?' for control characters, cut after `longest` bytes, so that an error stays on one line
+// whatever the file contains.
 [[nodiscard]] std::string Printable(std::string_view text, std::size_t longest = 80);
-// The name of a file as it begins an error: whole.
+// The file name with which an error begins; never cut.
 [[nodiscard]] std::string PlaceName(const std::filesystem::path& file);
 
 }  // namespace config

@@ -21,7 +21,7 @@ struct Document {
   toml::table root;
 };
 
-// Only a number can be without a bound: an integer has at least those of int.
+// Only a number can lack a bound: an integer has at least the bounds of int.
 template <typename T>
 std::string FormatRange(const Range<T>& range, std::string_view unit) {
   constexpr bool kHasInfinity = std::numeric_limits<T>::has_infinity;
@@ -106,8 +106,8 @@ void CollectValues(const toml::table& table, const std::string& prefix,
 
 struct TomlTable::Node {
   std::shared_ptr<const Document> document;
-  const toml::table* table = nullptr;  // null: the file does not have it
-  std::string prefix;                  // of its keys, "" or with a dot at the end
+  const toml::table* table = nullptr;  // null: not in the file
+  std::string prefix;                  // of the full keys: "" or with a dot at the end
   unsigned line = 1;
   std::set<std::string, std::less<>> asked;
   std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> children;
@@ -156,7 +156,7 @@ struct TomlTable::Node {
   }
   std::string Nearest(std::string_view key) const {
     std::string nearest;
-    std::size_t best = 3;  // more slips than two make another word
+    std::size_t best = 3;  // more than two slips make a different word
     for (const std::string& candidate : asked) {
       const std::size_t distance = EditDistance(key, candidate);
       if (distance < best && distance < candidate.size() && !table->contains(candidate)) {

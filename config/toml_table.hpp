@@ -5,7 +5,7 @@
 //   const config::TomlTable mpc = file.Table("controller");
 //   const int horizon = mpc.IntegerOr("horizon", 8, {1, 200});
 //   const double left = file.Table("road").Number("left", {0.0, 100.0}, "m");
-//   file.RefuseUnknownKeys();  // a key that nobody asked for is an error, here and in the tables taken from here
+//   file.RefuseUnknownKeys();  // a key that no call asked for is an error, here and in the tables taken from here
 #pragma once
 
 #include <filesystem>
@@ -34,22 +34,22 @@ struct Range {
 
 class TomlTable {
  public:
-  // Throws ConfigError: the file cannot be read, or is not TOML.
+  // Throws ConfigError if the file cannot be read or is not TOML.
   [[nodiscard]] static TomlTable Read(const std::filesystem::path& file);
   [[nodiscard]] static TomlTable Parse(std::string_view text, const std::string& source_name);
 
-  // Each throws ConfigError: the key is missing, has another type, or its value lies outside the range.
+  // Each throws ConfigError if the key is missing, has another type, or its value is outside the range.
   [[nodiscard]] double Number(std::string_view key, Range<double> range = {},
                               std::string_view unit = "") const;
   [[nodiscard]] int Integer(std::string_view key, Range<int> range = {}) const;
   [[nodiscard]] bool Boolean(std::string_view key) const;
   [[nodiscard]] std::string Text(std::string_view key) const;
-  // One of `choices`; returns its index.
+  // The value must be one of `choices`; returns its index.
   [[nodiscard]] std::size_t Choice(std::string_view key, const std::vector<std::string>& choices) const;
   // An array of `count` numbers, or of any number of them if `count` is 0.
   [[nodiscard]] std::vector<double> Numbers(std::string_view key, std::size_t count, Range<double> range = {},
                                             std::string_view unit = "") const;
-  // A path; a relative one is relative to the folder of this file.
+  // A relative path is relative to the folder of this file. An empty one throws ConfigError.
   [[nodiscard]] std::filesystem::path Path(std::string_view key) const;
 
   // As above, with a default for a missing key.
@@ -61,19 +61,19 @@ class TomlTable {
   [[nodiscard]] std::size_t ChoiceOr(std::string_view key, std::size_t fallback,
                                      const std::vector<std::string>& choices) const;
 
-  // All that is written here, by full key, each value as TOML: what a comparison of two files needs.
+  // All values of this table by full key, each as TOML text, for the comparison of two files.
   [[nodiscard]] std::map<std::string, std::string> Values() const;
 
   [[nodiscard]] bool Has(std::string_view key) const;
-  // The table under `key`; an empty one where the key is missing.
+  // The table under `key`; an empty one if the key is missing.
   [[nodiscard]] TomlTable Table(std::string_view key) const;
-  // The array of tables under `key`; none where the key is missing.
+  // The array of tables under `key`; empty if the key is missing.
   [[nodiscard]] std::vector<TomlTable> Tables(std::string_view key) const;
 
-  // Throws ConfigError at the first key of this table, or of one taken from it, that no call above asked for.
+  // Throws ConfigError at the first key, of this table or one taken from it, that no call above asked for.
   void RefuseUnknownKeys() const;
 
-  // An error at `key` (at the table itself where the key is missing), for checks across values.
+  // Makes an error at `key` (at the table itself if the key is missing), for checks across values.
   [[nodiscard]] ConfigError Error(std::string_view key, std::string_view text) const;
 
  private:

@@ -31,7 +31,7 @@ std::vector<std::string_view> Split(std::string_view line) {
   }
 }
 
-// Spreadsheets begin UTF-8 with one.
+// Spreadsheets begin UTF-8 files with a byte order mark.
 std::string WithoutByteOrderMark(std::string text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;

@@ -9,7 +9,7 @@
 namespace dbc {
 namespace {
 
-// The part of a signal that stands in one byte.
+// The part of a signal in one byte.
 struct Piece {
   std::size_t byte = 0;
   unsigned shift = 0;      // of its lowest bit in the byte
@@ -22,7 +22,7 @@ struct Piece {
 };
 
 // Intel signals begin with their lowest bits and fill bytes upwards; Motorola signals begin with their
-// highest bits and fill bytes downwards. Both go on in the next higher byte.
+// highest bits and fill bytes downwards. Both continue in the next byte.
 template <typename Visit>
 void ForEachPiece(const Signal& signal, Visit&& visit) {
   std::size_t byte = signal.start_bit / 8;
@@ -52,7 +52,7 @@ bool IsFloat(const Signal& signal) {
   return signal.type == ValueType::kFloat32 || signal.type == ValueType::kFloat64;
 }
 
-// Bits of the integer nearest to `scaled` among those that the signal holds.
+// The bits of the integer nearest to `scaled` among those that the signal can hold.
 std::uint64_t ToInteger(const Signal& signal, double scaled, bool& saturated) {
   const bool is_signed = signal.type == ValueType::kSigned;
   const double rounded = std::round(scaled);
@@ -151,7 +151,7 @@ bool InRange(const Signal& signal, std::span<const std::byte> payload) {
   const double value = DecodeSignal(signal, payload);
   if (!std::isfinite(value)) return false;
   if (!signal.HasRange() || (signal.min <= value && value <= signal.max)) return true;
-  // An end of the range, rounded to what the signal holds, may lie beyond it.
+  // An end of the range, rounded to what the signal can hold, may be outside the range.
   bool saturated = false;
   return ReadRaw(signal, payload) == ToRaw(signal, std::clamp(value, signal.min, signal.max), saturated);
 }

@@ -1,4 +1,4 @@
-// What a DBC file says: messages, their signals, value tables, attributes, comments.
+// The contents of a DBC file: messages, their signals, value tables, attributes, comments.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace dbc {
 
-// kIntel (`@1`): start_bit is the least significant bit; the signal goes on towards higher bit numbers.
-// kMotorola (`@0`): start_bit is the most significant bit; the signal goes on towards bit 0 of the same byte,
-// then from bit 7 of the next one. Bit b of a payload is bit b % 8 of byte b / 8, bit 0 the least
-// significant, in both.
+// kIntel (`@1`): start_bit is the least significant bit; the signal continues towards higher bit numbers.
+// kMotorola (`@0`): start_bit is the most significant bit; the signal continues towards bit 0 of the same byte,
+// then from bit 7 of the next byte. In both, bit b of a payload is bit b % 8 of byte b / 8, where bit 0 is the
+// least significant.
 enum class ByteOrder : std::uint8_t { kIntel, kMotorola };
 
 enum class ValueType : std::uint8_t {
@@ -27,7 +27,7 @@ enum class ValueType : std::uint8_t {
 using AttributeValue = std::variant<std::int64_t, double, std::string>;
 using Attributes = std::map<std::string, AttributeValue, std::less<>>;
 
-// Raw value to text. A value above the largest int64 is kept by its bit pattern.
+// Maps raw values to texts. A value above the largest int64 is stored as its bit pattern.
 using ValueTable = std::map<std::int64_t, std::string>;
 
 struct RawRange {
@@ -35,13 +35,13 @@ struct RawRange {
   std::uint64_t last = 0;  // inclusive
 };
 
-// The signal is in the payload while its multiplexor's raw value lies in one of `values`.
+// The signal is in the payload while its multiplexor's raw value is in one of `values`.
 struct Multiplexing {
   std::size_t multiplexor = 0;   // index in MessageDefinition::signals
-  std::vector<RawRange> values;  // one value in simple multiplexing; none: the file names none, never present
+  std::vector<RawRange> values;  // one value in simple multiplexing; empty: the signal is never present
 };
 
-// Longest message, of the J1939 transport protocol [bytes].
+// The longest message, that of the J1939 transport protocol [bytes].
 inline constexpr unsigned kMaxMessageLength = 1785;
 
 // physical = raw * factor + offset
@@ -63,12 +63,12 @@ struct Signal {
   Attributes attributes;
   std::string comment;
 
-  // Files write [0|0], or min > max, where they mean no range.
+  // Files write [0|0], or min > max, to mean no range.
   [[nodiscard]] bool HasRange() const { return min < max; }
 };
 
 struct MessageDefinition {
-  std::uint32_t id = 0;  // without the DBC's bit 31
+  std::uint32_t id = 0;  // without bit 31 of the DBC id
   bool extended = false;
   std::string name;
   unsigned length = 0;  // [bytes]
@@ -83,7 +83,7 @@ struct MessageDefinition {
 enum class AttributeType : std::uint8_t { kInteger, kHex, kFloat, kString, kEnumeration };
 
 struct AttributeDefinition {
-  std::string object;  // "BU_", "BO_", "SG_", "EV_", or empty: the network
+  std::string object;  // "BU_", "BO_", "SG_", "EV_"; empty: the network
   AttributeType type = AttributeType::kString;
   double min = 0.0;
   double max = 0.0;
@@ -106,17 +106,17 @@ struct Database {
   std::map<std::string, AttributeDefinition, std::less<>> attribute_definitions;
   Attributes attributes;
   std::string comment;
-  // "FILE:LINE:COLUMN: ...": oddities that real files have and that lose nothing.
+  // "FILE:LINE:COLUMN: ...": harmless oddities of real files.
   std::vector<std::string> warnings;
 
   [[nodiscard]] const MessageDefinition* Find(std::string_view message_name) const;
   [[nodiscard]] const MessageDefinition* Find(std::uint32_t id, bool extended) const;
-  // The message's own attribute, else the default of its definition, else nullptr.
+  // The message's own attribute, else the default of the definition, else nullptr.
   [[nodiscard]] const AttributeValue* Attribute(const MessageDefinition& message,
                                                 std::string_view name) const;
 };
 
-// The number that an attribute holds; nothing if it holds text.
+// The number that an attribute holds; nullopt if it holds text.
 [[nodiscard]] std::optional<double> Number(const AttributeValue& value);
 
 }  // namespace dbc

@@ -1,6 +1,6 @@
 // End-to-end protection in the style of AUTOSAR E2E profile 1: a CRC-8 with the SAE J1850 polynomial (0x1D,
-// initial value 0, no final xor) over the data id (low byte, high byte) and every byte of the payload but the
-// CRC's own, and a counter 0..14 that goes up by one with every transmission.
+// initial value 0, no final xor) over the data id (low byte, high byte) and every byte of the payload except the
+// CRC's own, and a counter 0..14 that increases by one, modulo 15, with every transmission.
 #pragma once
 
 #include <cstddef>

@@ -20,7 +20,7 @@ bool IsSpace(char c) {
 class Lexer {
  public:
   Lexer(std::string_view text, const std::string& source_name) : text_(text), source_name_(source_name) {
-    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte order mark of UTF-8
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // UTF-8 byte order mark
   }
 
   Token Next() {
@@ -98,7 +98,7 @@ class Lexer {
 
 std::string Describe(const Token& token) {
   if (token.kind == Token::Kind::kEnd) return "the end of the file";
-  // An error is one line: only the beginning of a long text, and only what every terminal shows.
+  // An error is one line: a long text is cut, and everything but printable ASCII is escaped.
   constexpr std::size_t kShown = 32;
   std::string text;
   for (const char c : token.text.substr(0, kShown)) {

@@ -1,4 +1,4 @@
-// Text of a DBC file to tokens, each with its place.
+// Splits the text of a DBC file into tokens, each with its place.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace dbc {
 
 struct Token {
   enum class Kind : std::uint8_t {
-    kIdentifier,   // letters, digits, '_'; no digit first
+    kIdentifier,   // letters, digits, '_'; does not begin with a digit
     kNumber,       // without its sign
-    kString,       // `text` is what stands between the quotes, `\"` already `"`
+    kString,       // `text` is the part between the quotes, with `"` for `\"`
     kPunctuation,  // any other character
     kEnd,
   };
@@ -25,8 +25,7 @@ struct Token {
 // The token as an error message shows it.
 [[nodiscard]] std::string Describe(const Token& token);
 
-// Throws DbcError: a string without an end, or a character that no DBC statement begins with. The last token
-// is kEnd.
+// The last token is kEnd. Throws DbcError if a string has no closing quote.
 [[nodiscard]] std::vector<Token> Tokenize(std::string_view text, const std::string& source_name);
 
 }  // namespace dbc

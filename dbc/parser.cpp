@@ -20,7 +20,7 @@ constexpr std::uint32_t kMaxStandardId = 0x7FF;
 constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
 constexpr std::uint64_t kMaxRawId = std::numeric_limits<std::uint32_t>::max();
 
-// Word by word through the file. Names and ids are looked up among what came before, as the format has it.
+// Reads the file token by token. Names and ids are looked up among those read before, as the format requires.
 class Parser {
  public:
   Parser(std::string_view text, const std::string& source_name) : in_(text, source_name) {
@@ -35,12 +35,12 @@ class Parser {
   }
 
  private:
-  // What is to be known of a signal until the whole file is read.
+  // Data about a signal that are needed until the whole file is read.
   struct SignalNote {
     Token place;
     std::string multiplexor;  // empty: the only one of the message
   };
-  // What a comment or an attribute belongs to.
+  // The object to which a comment or an attribute belongs.
   struct Target {
     std::string* comment;
     Attributes* attributes;
@@ -83,7 +83,7 @@ class Parser {
 
   void Version() { database_.version = in_.String("the version").text; }
 
-  // A list of words, most of them keywords: it ends where one of them is used as such.
+  // A list of words, most of them keywords: it ends where one is used as a keyword.
   void NewSymbols() {
     in_.Expect(":", "NS_");
     while (in_.AtIdentifier() && !in_.At("BS_") && !in_.At("BU_") && !in_.At("BO_") &&
@@ -157,7 +157,7 @@ class Parser {
     notes_.back().push_back({.place = place, .multiplexor = {}});
   }
 
-  // Each of the three gives nullptr, with a warning, for what does not exist.
+  // These return nullptr for what does not exist: with a warning, unless it belongs to VECTOR__INDEPENDENT_SIG_MSG.
   MessageDefinition* MessageReference() {
     const Token place = in_.Peek();
     const auto raw_id = static_cast<std::uint32_t>(in_.Unsigned("a message id", kMaxRawId));
@@ -236,7 +236,7 @@ class Parser {
   }
 
   // ---- comments and attributes ----
-  // `BU_ node`, `BO_ id`, `SG_ id signal`, `EV_ variable`, or nothing: the network.
+  // Takes `BU_ node`, `BO_ id`, `SG_ id signal`, `EV_ variable`, or nothing, which means the network.
   Target TakeTarget() {
     const Target lost{&lost_comment_, &lost_attributes_};
     const auto of = [&](auto* object) {
@@ -265,7 +265,7 @@ class Parser {
     database_.attribute_definitions.insert_or_assign(name, std::move(definition));
   }
 
-  // nullptr with a warning if there is none.
+  // Returns nullptr, with a warning, if there is none.
   AttributeDefinition* DefinitionOf(const Token& name) {
     const auto found = database_.attribute_definitions.find(name.text);
     if (found != database_.attribute_definitions.end()) return &found->second;
@@ -323,8 +323,8 @@ class Parser {
   Database database_;
   std::vector<std::vector<SignalNote>> notes_;  // of the signals of Database::messages
   bool in_message_ = false;                     // SG_ belongs to the last message
-  bool in_independent_signals_ = false;         // SG_ belongs to none
-  std::string lost_comment_;                    // of what does not exist
+  bool in_independent_signals_ = false;         // SG_ belongs to no message
+  std::string lost_comment_;                    // takes comments on what does not exist
   Attributes lost_attributes_;
 };
 

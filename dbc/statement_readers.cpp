@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kMaxBit = 8 * kMaxMessageLength - 1;
 constexpr std::uint64_t kMaxRaw = std::numeric_limits<std::uint64_t>::max();
 
-// `M`, `m3`, `m3M`, and a lone `m` whose values SG_MUL_VAL_ tells.
+// Reads `M`, `m3`, `m3M`, or a lone `m` whose values SG_MUL_VAL_ lists.
 void ReadMultiplexor(TokenReader& in, Signal& signal) {
   std::string_view text = in.Peek().text;
   if (text.starts_with('m')) {

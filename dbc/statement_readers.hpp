@@ -1,5 +1,5 @@
-// The parts of DBC statements that stand on their own: what a TokenReader gives at its place, without a look
-// at the rest of the file.
+// Reads those parts of DBC statements that need no knowledge of the rest of the file, from the present place of a
+// TokenReader.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ struct SignalStatement {
   Token place;
 };
 
-// What follows SG_.
+// Reads the rest of a statement after SG_.
 [[nodiscard]] SignalStatement ReadSignal(TokenReader& in);
 
-// What follows SG_MUL_VAL_, a message id and a signal name: the name of a multiplexor and `first-last,
+// The part of SG_MUL_VAL_ after the message id and the signal name: the name of a multiplexor and `first-last,
 // first-last;`.
 struct MultiplexedValues {
   std::string multiplexor;
@@ -25,13 +25,13 @@ struct MultiplexedValues {
 };
 [[nodiscard]] MultiplexedValues ReadMultiplexedValues(TokenReader& in);
 
-// Pairs of value and text up to and with the ';'.
+// Reads pairs of value and text up to and including the ';'.
 [[nodiscard]] ValueTable ReadValues(TokenReader& in);
 
-// What follows the name of an attribute in BA_DEF_, with the ';'.
+// Reads the rest of BA_DEF_ after the name of the attribute, including the ';'.
 [[nodiscard]] AttributeDefinition ReadAttributeType(TokenReader& in);
 
-// The value of an attribute as its definition wants it; as it is written if `definition` is nullptr or does
+// Reads the value of an attribute, in the type of its definition; as written if `definition` is nullptr or does
 // not fit.
 [[nodiscard]] AttributeValue ReadAttributeValue(TokenReader& in, const AttributeDefinition* definition);
 

@@ -1,4 +1,4 @@
-// Goes through the tokens of a DBC file; whatever does not fit is a DbcError that says what was expected.
+// Goes through the tokens of a DBC file; a token that does not fit throws a DbcError with what was expected.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dbc {
 
-// True for the words of the DBC format: where one stands, a list of names has ended.
+// True for the keywords of the DBC format; a keyword ends a list of names.
 [[nodiscard]] bool IsKeyword(const Token& token);
 
 class TokenReader {
@@ -31,9 +31,9 @@ class TokenReader {
   const Token& String(const std::string& what);
   [[nodiscard]] double Real(const std::string& what);
   [[nodiscard]] std::uint64_t Unsigned(const std::string& what, std::uint64_t max);
-  // Any integer of 64 bits, one above the largest int64 by its bit pattern. Some files write 1 as 1.0.
+  // Takes any 64-bit integer; one above the largest int64 becomes its bit pattern. Some files write 1 as 1.0.
   [[nodiscard]] std::int64_t Integer(const std::string& what);
-  [[nodiscard]] bool AtInteger() const;  // an optional sign and digits alone
+  [[nodiscard]] bool AtInteger() const;  // an optional sign and digits only
   void SkipStatement();
 
   [[nodiscard]] std::string Place(const Token& token, const std::string& text) const;

@@ -40,10 +40,8 @@
 namespace loop {
 
 struct LoopSettings {
-  base::Time period =
-      std::chrono::milliseconds(50);  // t_s of bus, reference and controller
-  base::Time deadline =
-      std::chrono::milliseconds(50);  // age of a state beyond which an answer to it is late
+  base::Time period = std::chrono::milliseconds(50);    // t_s of bus, reference and controller
+  base::Time deadline = std::chrono::milliseconds(50);  // age of a state beyond which an answer to it is late
   safety::MonitorSettings monitor;
   safety::CommandLimits limits;  // max_age is lowered to what the controller's horizon covers
   safety::ModeSettings modes;

@@ -86,7 +86,8 @@ void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, Ou
   bus::FaultCode refusal =
       outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
   if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
-    const CheckVerdict verdict = CheckPlan(*check_, z_, place.s, plan.u, active_.From(known.step), obstacles_);
+    const CheckVerdict verdict =
+        CheckPlan(*check_, z_, place.s, plan.u, active_.From(known.step), obstacles_);
     outcome.rejection = verdict.violation;
     if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
   }

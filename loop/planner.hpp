@@ -40,9 +40,9 @@ enum class PlanRequest : std::uint8_t {
 struct Outcome {
   const control::Plan* solution = nullptr;  // of this cycle, accepted or not; null if no problem was solved
   bool accepted = false;
-  bool late = false;        // the deadline has passed
-  std::int64_t step = 0;    // step of the command: later than the snapshot's if the cycle was late
-  base::Time solve_time{};  // from Start to the end of planning
+  bool late = false;                   // the deadline has passed
+  std::int64_t step = 0;               // step of the command: later than the snapshot's if the cycle was late
+  base::Time solve_time{};             // from Start to the end of planning
   std::optional<safety::Cause> fault;  // why there is no new plan, if there should be one
   // First violation that the check predicts for the solution. An accepted one fails no earlier than the last plan.
   std::optional<control::ConstraintViolation> rejection;

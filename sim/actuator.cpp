@@ -28,7 +28,7 @@ void Actuator::Override(double value) {
 void Actuator::Advance(double dt) {
   const double tau = parameters_.time_constant;
   const double gap = std::abs(target_ - value_);
-  // First at the greatest rate, until the lag asks for less, then exponentially.
+  // It moves at the greatest rate until the lag demands less, then exponentially.
   const double band = tau > 0.0 ? parameters_.rate * tau : 0.0;
   if (gap > band && std::isfinite(parameters_.rate)) {
     const double time = std::min(dt, (gap - band) / parameters_.rate);

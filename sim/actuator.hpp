@@ -1,4 +1,4 @@
-// An actuator: pure delay of whole control cycles, then a first-order lag with limited rate and range.
+// An actuator: a pure delay of whole control cycles, then a first-order lag with limited rate and range.
 //
 //   ẋ = clamp((command − x) / τ, ±rate),   command clamped to the range; τ = 0: x moves at `rate`, or jumps
 #pragma once
@@ -21,18 +21,18 @@ class Actuator {
  public:
   Actuator(const ActuatorParameters& parameters, double initial);
 
-  // One of the two once a cycle. Command takes its delay; Override takes over at once, and the commands that are
-  // still on their way are lost.
+  // Exactly one of the two is called per cycle. A command takes effect after the delay, an override at once; the
+  // commands that are still delayed are then lost.
   void Command(double value);
   void Override(double value);
-  // Exact for a constant command, whatever dt >= 0 [s] is.
+  // Advances by dt >= 0 [s]; exact for a constant command, whatever dt is.
   void Advance(double dt);
 
   [[nodiscard]] double value() const { return value_; }
 
  private:
   ActuatorParameters parameters_;
-  std::vector<double> delayed_;  // ring of the commands on their way
+  std::vector<double> delayed_;  // ring buffer of the delayed commands
   std::size_t next_ = 0;
   double target_;
   double value_;

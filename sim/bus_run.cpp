@@ -20,7 +20,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kRetry{2};  // between attempts to send into a full queue or a link that is down
-constexpr milliseconds kPacedSendLimit{20};  // then the rest of the cycle's frames is lost, as on a bus
+constexpr milliseconds kPacedSendLimit{20};  // after it the cycle's other frames are lost, as on a bus
 constexpr std::chrono::duration<double> kPeriod{kCycleTime};
 
 int OpenSignals() {
@@ -158,7 +158,7 @@ void BusRun::DrivePaced() {
     next += period;
     if (const auto now = Clock::now(); now > next + period) {
       ++late_cycles_;
-      next = now;  // time that was lost is not made up by a burst
+      next = now;  // lost time is not made up for by a burst
     }
     (void)HandleUntil(next, [] { return false; });
     if (interrupted_) break;

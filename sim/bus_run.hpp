@@ -1,10 +1,10 @@
-// Drives a scenario on a CAN interface, against a controller in another process.
+// Runs a scenario on a CAN interface, with the controller in another process.
 //
 //   const sim::Summary summary = sim::BusRun(scenario, bus, socket, settings).Run();
 //
-// In lock step the vehicle waits for the answer to each of its state sets, so the drive is as fast as both
-// can and repeatable. Otherwise it keeps 20 Hz by the monotonic clock and applies commands as they come.
-// SIGINT and SIGTERM, which the caller has to have blocked, end the drive where it is.
+// In lock step the vehicle waits for the answer to each of its state sets, so the drive is repeatable and as
+// fast as both processes permit. Otherwise it keeps 20 Hz by the monotonic clock and applies commands as they
+// arrive. SIGINT and SIGTERM, which the caller must have blocked, end the drive where it is.
 #pragma once
 
 #include <chrono>
@@ -21,26 +21,26 @@ namespace sim {
 
 struct BusRunSettings {
   bool lockstep = false;
-  std::chrono::milliseconds controller_timeout{10'000};  // for a first ControllerStatus
+  std::chrono::milliseconds controller_timeout{10'000};  // for the first ControllerStatus
   std::chrono::milliseconds answer_timeout{5'000};       // for the answer to a state set in lock step
 };
 
-// The kernel filters for what the vehicle wants to hear. Throws std::runtime_error if the bus lacks a message.
+// The kernel filters for the messages that the vehicle receives.
 [[nodiscard]] std::vector<can::Filter> ControllerFilters(const bus::VehicleBus& bus);
 
 class BusRun {
  public:
-  // All references must outlive the run.
+  // All references must outlive the BusRun.
   BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket,
          const BusRunSettings& settings);
   ~BusRun();
   BusRun(const BusRun&) = delete;
   BusRun& operator=(const BusRun&) = delete;
 
-  // Throws std::runtime_error: no controller, no answer in time, the interface is gone.
+  // Throws std::runtime_error if there is no controller, no answer in time, or an error of the interface.
   [[nodiscard]] Summary Run();
 
-  // Paced: cycles begun more than a period late.
+  // Number of cycles that began more than a period late; without lock step only.
   [[nodiscard]] std::uint64_t late_cycles() const { return late_cycles_; }
   [[nodiscard]] const VirtualVehicle& vehicle() const { return vehicle_; }
 
@@ -50,11 +50,11 @@ class BusRun {
   void WaitForController();
   void DriveInLockStep();
   void DrivePaced();
-  // Handles what comes until `deadline` or until `until()`; true if the latter, or a signal, ended it.
+  // Handles received frames until `deadline` or until `until()` holds; false if the deadline ended it.
   template <typename Condition>
   bool HandleUntil(Clock::time_point deadline, const Condition& until);
   void ReceiveAll();
-  // True once every frame of the cycle is sent.
+  // True if every frame of the cycle was sent, false if `deadline` came first. Throws std::runtime_error.
   bool SendCycle(Clock::time_point deadline);
 
   can::Socket* socket_;

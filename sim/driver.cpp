@@ -3,7 +3,7 @@
 namespace sim {
 namespace {
 
-constexpr int kCyclesBeforeAsking = 5;  // of standby
+constexpr int kCyclesBeforeAsking = 5;  // in standby
 constexpr int kCyclesOfPatience = 20;   // before asking anew
 
 }  // namespace

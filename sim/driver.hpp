@@ -1,8 +1,9 @@
-// The person at the wheel, by a plan of times: engages the controller once it stands by, overrides or ends it.
+// The person at the wheel, who follows a plan of times: engages the controller once it is in standby, overrides it, or
+// ends the drive.
 //
-// The controller engages on a rising edge of the request, and an edge that comes too early is spent. So the driver
-// waits until the controller has stood by for a moment, asks, and asks again when nothing came of it; once driven
-// and let go again, the driver keeps the wheel.
+// The controller engages on a rising edge of the request, and an edge that comes too early is lost. So the driver
+// waits until the controller has been in standby for a moment, asks, and asks again if nothing happened. Once the
+// controller has driven, the driver makes no new request: after it lets go, the driver keeps the wheel.
 #pragma once
 
 #include <optional>
@@ -23,13 +24,13 @@ class Driver {
  public:
   explicit Driver(const DriverPlan& plan) : plan_(plan) {}
 
-  // The request of one cycle at `time` [s], with the controller's mode as told last.
+  // The request of one cycle at `time` [s], for the controller's mode as last reported.
   [[nodiscard]] bus::DriverRequest Request(double time, bus::Mode mode);
 
  private:
   DriverPlan plan_;
   bool driven_ = false;  // the controller was active at some time
-  int cycles_ = 0;       // since `asking_` changed, or the controller stands by
+  int cycles_ = 0;       // since `asking_` changed or standby began
   bool asking_ = false;
 };
 

@@ -7,8 +7,8 @@
 namespace sim {
 namespace {
 
-// Distance to the edge in the first quadrant, a >= b. The nearest point (x, y) fulfils x = a² p / (t + a²),
-// y = b² q / (t + b²) for the greatest root t of (a p / (t + a²))² + (b q / (t + b²))² = 1, here with s = t / b².
+// Distance to the edge in the first quadrant, a >= b. The nearest point (x, y) has x = a² p / (t + a²),
+// y = b² q / (t + b²) for the greatest root t of (a p / (t + a²))² + (b q / (t + b²))² = 1; the code uses s = t / b².
 double DistanceInQuadrant(double a, double b, double p, double q) {
   if (q == 0.0) {
     const double focal = a * a - b * b;

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// The point of from..to that is nearest to the origin.
+// The point of the segment from..to that is nearest to the origin.
 Vector2d NearestOfSegment(const Vector2d& from, const Vector2d& to) {
   const Vector2d along = to - from;
   const double squared = along.squaredNorm();
@@ -25,7 +25,7 @@ Vector2d NearestOfSegment(const Vector2d& from, const Vector2d& to) {
 
 double FootprintDistance(const control::Obstacle& obstacle, const control::Footprint& footprint,
                          const Eigen::Vector2d& position, double heading) {
-  // In the ellipse's frame, where corners stay in their order: clockwise.
+  // The corners are transformed to the ellipse's frame and stay in clockwise order.
   const Eigen::Rotation2Dd to_ellipse(-obstacle.heading);
   const Eigen::Rotation2Dd turn(heading - obstacle.heading);
   const Vector2d from_ellipse = to_ellipse * (position - Vector2d(obstacle.X, obstacle.Y));
@@ -34,7 +34,7 @@ double FootprintDistance(const control::Obstacle& obstacle, const control::Footp
   const control::Obstacle centred{.r_x = obstacle.r_x, .r_y = obstacle.r_y};
   const Vector2d radii(obstacle.r_x, obstacle.r_y);
 
-  // The ellipse's centre lies in the rectangle if it is on no edge's outer side.
+  // The ellipse's centre is in the rectangle if it is on no edge's outer side.
   bool centre_inside = true;
   Vector2d deepest(std::numeric_limits<double>::infinity(),
                    0.0);  // with the ellipse scaled to the unit circle
@@ -46,12 +46,12 @@ double FootprintDistance(const control::Obstacle& obstacle, const control::Footp
     if (nearest.squaredNorm() < deepest.squaredNorm()) deepest = nearest;
     distance = std::min(distance, EllipseDistance(centred, from.x(), from.y()));
 
-    // Where they do not touch, the nearest point is a corner, or lies on an edge opposite to the ellipse's point whose
-    // normal is that of the edge.
+    // Without contact, the nearest point is a corner, or it is on an edge opposite to the ellipse's point with the same
+    // normal.
     const Vector2d along = to - from;
     const double length = along.norm();
     const Vector2d normal =
-        Vector2d(-along.y(), along.x()) / length;  // outwards; NaN of an edge without length
+        Vector2d(-along.y(), along.x()) / length;  // outwards; NaN if the edge has no length
     centre_inside = centre_inside && normal.dot(-from) < 0.0;
     const double reach = radii.cwiseProduct(normal).norm();
     const Vector2d facing = -radii.cwiseAbs2().cwiseProduct(normal) / reach;

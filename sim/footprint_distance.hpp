@@ -1,4 +1,4 @@
-// Distance of a vehicle's rectangle to an ellipse.
+// Distance from a vehicle's rectangle to an ellipse.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,10 +8,10 @@
 
 namespace sim {
 
-// Signed distance [m] of the footprint, its centre of gravity at `position` and its front towards `heading` [rad], to
-// the obstacle's edge. Outside it is exact to round-off. In contact it is negative: the depth of that point of the
-// rectangle which is deepest by the ellipse's own measure, the ratio in which it divides a radius; the distance that
-// would part them may be greater. The obstacle's semi-axes must be above 0.
+// Signed distance [m] from the footprint, its centre of gravity at `position` and its front towards `heading` [rad], to
+// the obstacle's edge. Without contact it is exact to round-off. In contact it is negative: the depth of the
+// rectangle's point that is deepest as a fraction of the ellipse's radius through it; separating the two may take a
+// greater distance. The obstacle's semi-axes must be positive.
 [[nodiscard]] double FootprintDistance(const control::Obstacle& obstacle, const control::Footprint& footprint,
                                        const Eigen::Vector2d& position, double heading);
 

@@ -19,7 +19,7 @@ constexpr int kPassed = 0;
 constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
-// Before anything else: BusRun takes these signals from a file descriptor.
+// Must come before anything else: BusRun takes these signals from a file descriptor.
 void BlockSignals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -44,7 +44,7 @@ int Drive(const sim::Options& options) {
                   {.lockstep = options.lockstep,
                    .controller_timeout = std::chrono::duration_cast<std::chrono::milliseconds>(timeout)});
   const sim::Summary summary = run.Run();
-  // JSON on stdout is for a machine; who watches still gets the summary.
+  // JSON on stdout is for a machine; a person watching still gets the summary.
   std::fputs(sim::ToText(summary).c_str(), options.json ? stderr : stdout);
   if (options.json) std::fputs(sim::ToJson(summary).c_str(), stdout);
   if (std::fflush(stdout) != 0) throw std::runtime_error("standard output: cannot be written");

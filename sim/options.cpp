@@ -22,11 +22,11 @@ std::optional<Options> ParseOptions(int argc, const char* const* argv, int& exit
   app.footer("Exit status: 0 expectations met, 1 not met or the run failed, 2 bad usage or input.");
   try {
     app.parse(argc, argv);
-    // Not CLI11's own check, which would hide an unknown option.
+    // CLI11's own check would hide an unknown option.
     for (const char* name : {"--interface", "--scenario"}) {
       if (app.count(name) == 0) throw CLI::RequiredError(name);
     }
-    // Nor for this: it lets NaN through.
+    // CLI11's own check of a range accepts NaN.
     if (!(options.timeout >= 0.1 && options.timeout <= 3600.0)) {
       throw CLI::ValidationError(
           "--timeout", app.get_option("--timeout")->as<std::string>() + " is outside [0.1, 3600] s");

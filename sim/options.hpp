@@ -1,4 +1,4 @@
-// Command line of lpvmpc-sim.
+// The command line of lpvmpc-sim.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ struct Options {
   double timeout = 10.0;  // wait for the controller [s]
 };
 
-// Nothing if the program is to end at once with `exit_code`: 0 after --help, 2 after a usage error, which was told
-// in one line on stderr.
+// Returns nullopt if the program must end at once with `exit_code`: 0 after --help, 2 after a usage error, which has
+// been reported in one line on stderr.
 [[nodiscard]] std::optional<Options> ParseOptions(int argc, const char* const* argv, int& exit_code);
 
 }  // namespace sim

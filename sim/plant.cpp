@@ -9,7 +9,7 @@ namespace {
 using control::Input;
 using control::State;
 
-// Below this speed of a wheel the brake fades out, so that it holds and does not push backwards [m/s].
+// Below this wheel speed the brake fades out, so that it holds and does not push backwards [m/s].
 constexpr double kBrakeFade = 0.1;
 
 double BrakeShare(double rolling_speed) {
@@ -41,7 +41,7 @@ std::array<double, kWheels> Plant::Loads(const State& z, const Input& u) const {
   const double pitch = v.m * u[control::kAcceleration] * parameters_.height / wheelbase;
   const double front = std::clamp(weight * v.l_r / wheelbase - pitch, 0.0, weight);
   const double rear = weight - front;
-  // Left wheels are relieved in a left turn.
+  // The left wheels carry less in a left turn.
   const double roll = v.m * z[control::kUpsilon] * z[control::kOmega] * parameters_.height;
   const auto transfer = [roll](double share, double track, double axle) {
     return track > 0.0 ? std::clamp(share * roll / track, -0.5 * axle, 0.5 * axle) : 0.0;

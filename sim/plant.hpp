@@ -1,16 +1,16 @@
-// A vehicle with four wheels moving in the plane: x, y and yaw (dual track, three degrees of freedom).
+// A four-wheeled vehicle that moves in the plane: x, y and yaw (dual track, three degrees of freedom).
 //
-// State z = [X Y υ ν ψ ω] as in control/vehicle/types.hpp, input u = [δ a]: both front wheels are steered by δ, and m a is
-// the longitudinal force asked of the tyres, shared among the wheels by their load; a < 0 brakes and never
-// reverses.
-//  - slip angle of a wheel: between its plane and the velocity of its own hub
+// State z = [X Y υ ν ψ ω] as in control/vehicle/types.hpp, input u = [δ a]: both front wheels are steered by δ, and
+// m a is the longitudinal force demanded of the tyres, shared among the wheels by their loads; a < 0 brakes and
+// never reverses.
+//  - slip angle of a wheel: the angle between its plane and the velocity of its hub
 //  - linear tyres: F_y = C_α α, unlimited
-//  - saturating tyres: brush model (Fiala) with sqrt((μ F_z)² − F_x²) left for the side, F_x limited to μ F_z
-//  - load transfer: quasi-static, from a along and υ ω across, never more than lifts a wheel
-// Below kSlipSpeed the slip is taken relative to that speed, so standstill needs no case of its own: the
-// tyres then damp sideways motion instead of dividing by zero, and a braked vehicle comes to rest and stays.
-// With linear tyres and neither track nor height it differs from the paper's bicycle (eq:dynamic_model) only
-// in what that leaves out: sin δ of the front tyres' forces and cos δ in their moment.
+//  - saturating tyres: brush model (Fiala); F_x is limited to μ F_z, the side force to sqrt((μ F_z)² − F_x²)
+//  - load transfer: quasi-static, longitudinal from a, lateral from υ ω, limited to lifting a wheel
+// Below kSlipSpeed the slip is relative to that speed, so standstill is no special case: the tyres then damp
+// sideways motion instead of dividing by zero, and a braked vehicle comes to rest and stays at rest.
+// With linear tyres and neither track nor height it differs from the paper's bicycle model (eq:dynamic_model)
+// only in the terms which that neglects: sin δ in the front tyres' forces and cos δ in their moment.
 #pragma once
 
 #include <array>
@@ -27,11 +27,11 @@ inline constexpr double kSlipSpeed = 1.0;  // [m/s]
 enum class Tyre { kLinear, kSaturating };
 
 struct PlantParameters {
-  control::VehicleParameters vehicle;  // C_alpha_f, C_alpha_r are of one tyre
+  control::VehicleParameters vehicle;  // C_alpha_f, C_alpha_r: per tyre
   double track_front = 1.6;            // >= 0 [m]
   double track_rear = 1.6;             // >= 0 [m]
   double height = 0.55;                // of the centre of gravity, >= 0 [m]
-  double roll_share_front = 0.55;      // of the lateral load transfer, 0..1
+  double roll_share_front = 0.55;      // of the front axle in the lateral load transfer, 0..1
   Tyre tyre = Tyre::kLinear;
   double mu = 0.9;  // friction coefficient of saturating tyres, > 0
 };
@@ -39,7 +39,7 @@ struct PlantParameters {
 enum Wheel : std::size_t { kFrontLeft, kFrontRight, kRearLeft, kRearRight, kWheels };
 
 struct WheelForces {
-  double slip = 0.0;  // α, positive gives a force to the left [rad]
+  double slip = 0.0;  // α; a positive one gives a force to the left [rad]
   double F_x = 0.0;   // along the wheel [N]
   double F_y = 0.0;   // across it, left positive [N]
   double F_z = 0.0;   // load [N]
@@ -49,7 +49,8 @@ class Plant {
  public:
   Plant(const PlantParameters& parameters, const control::State& initial);
 
-  // One step of the classical Runge-Kutta method of order 4, h > 0 [s]; the input at its start, middle and end.
+  // Performs one step h > 0 [s] of the classical fourth-order Runge-Kutta method, given the input at the step's start,
+  // middle and end.
   void Step(const control::Input& start, const control::Input& middle, const control::Input& end, double h);
 
   [[nodiscard]] const control::State& state() const { return state_; }  // ψ is not wrapped

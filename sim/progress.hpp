@@ -1,4 +1,4 @@
-// Tells on stderr how far a drive is: a line that is rewritten on a terminal, a line every five seconds elsewhere.
+// Shows the progress of a drive on stderr: one line, rewritten, on a terminal; a line every five seconds elsewhere.
 #pragma once
 
 #include <chrono>

@@ -20,8 +20,8 @@ constexpr Range<double> kMapX{kMapMinX, kMapMaxX};
 constexpr Range<double> kMapY{kMapMinY, kMapMaxY};
 constexpr Range<double> kLateral{-50.0, 50.0};   // [m]
 constexpr Range<double> kHeading{-6.3, 6.3};     // [rad]
-constexpr Range<double> kSemiAxis{0.05, 10.0};   // what ObstacleObject holds [m]
-constexpr Range<double> kVelocity{-60.0, 60.0};  // what ObstacleObject holds [m/s]
+constexpr Range<double> kSemiAxis{0.05, 10.0};   // as ObstacleObject can hold [m]
+constexpr Range<double> kVelocity{-60.0, 60.0};  // as ObstacleObject can hold [m/s]
 constexpr Range<double> kFactor{0.2, 5.0};
 constexpr Range<double> kTime{0.0, 1e5};       // [s]
 constexpr Range<double> kOverhang{0.0, 20.0};  // [m]
@@ -161,7 +161,7 @@ void ReadInitial(const TomlTable& table, Scenario& scenario) {
 
 }  // namespace
 
-// Linear single-track theory, as the vehicle's own tyres are at small slip.
+// Uses linear single-track theory, which holds for the vehicle's own tyres at small slip.
 void Scenario::PlaceVehicle(double along, double speed, double lateral, double heading) {
   const control::RoutePoint point = route.At(along);
   const control::VehicleParameters& v = plant.vehicle;

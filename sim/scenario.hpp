@@ -1,11 +1,11 @@
-// One simulated drive: the road, the vehicle and how it differs from the controller's model, the obstacles, the
-// driver, and the expectations that decide whether the drive passed. A TOML file; only `name` and `route` are
-// required, and of an obstacle `id`, `r_x`, `r_y` and a place: X and Y, or s.
+// One simulated drive: the road, the vehicle and its differences from the controller's model, the obstacles, the
+// driver, and the expectations that decide whether the drive passed. It is a TOML file; only `name` and `route` are
+// required, and for each obstacle `id`, `r_x`, `r_y` and a place: X and Y, or s.
 //
 //   name = "demo"                     # one line
 //   description = "..."
 //   seed = 1                          # of the sensors' noise, 0..2147483647
-//   duration = 60.0                   # [s]; without it the drive goes on to the end of the route
+//   duration = 60.0                   # [s]; default: to the end of the route
 //   route = "route.toml"              # config/route_file.hpp; paths are relative to this file
 //   daemon_config = "lpvmpcd.toml"    # for the tools that start the daemon
 //   [initial]                         # place relative to the route
@@ -22,18 +22,18 @@
 //   heading = 0.0                     # in the map [rad]
 //   velocity_X = 0.0                  # in the map [m/s]
 //   velocity_Y = 0.0
-//   side = "left"                     # on which it is to be passed: left, right, unknown
-//   appears_at = 0.0                  # before that the vehicle does not perceive it, though it is there [s]
+//   side = "left"                     # on which to pass it: left, right, unknown
+//   appears_at = 0.0                  # the obstacle exists, but is not perceived, before that time [s]
 //   [[obstacle]]
 //   id = 2
-//   s = 100.0                         # instead of X and Y: centre along the route [m]
-//   lateral = -0.3                    # and beside it, left positive [m]
-//   heading = 0.0                     # then relative to the route [rad]
+//   s = 100.0                         # instead of X and Y: arc length of the centre [m]
+//   lateral = -0.3                    # offset from the route, left positive [m]
+//   heading = 0.0                     # here relative to the route [rad]
 //   r_x = 1.0
 //   r_y = 0.5
-//   [vehicle]                         # its rectangle on the road, and deviations from control/vehicle/vehicle_parameters.hpp
+//   [vehicle]                         # its rectangle, and deviations from control/vehicle/vehicle_parameters.hpp
 //   front = 0.0                       # from the centre of gravity to the front end [m]
-//   rear = 0.0                        # and to the rear end [m]
+//   rear = 0.0                        # from the centre of gravity to the rear end [m]
 //   width = 0.0                       # [m]; all three 0: a point
 //   mass_factor = 1.0                 # of mass and yaw inertia
 //   front_stiffness_factor = 1.0
@@ -52,10 +52,10 @@
 //   yaw_rate = 0.0                    # [rad/s]
 //   [driver]                          # times since the start [s]
 //   engage_at = 0.0
-//   disengage_at = 30.0               # never, where the key is missing
+//   disengage_at = 30.0               # default: never; so are the next two
 //   brake_at = 30.0
 //   steering_override_at = 30.0
-//   [expect]                          # of sim/summary.hpp; what is missing is not judged, but for `completed`
+//   [expect]                          # see sim/summary.hpp; only `completed` is judged if its key is missing
 //   completed = true
 //   max_infeasible_steps = 0
 //   min_clearance_m = 0.0
@@ -90,7 +90,7 @@ inline constexpr double kMapMaxY = 800.0;
 
 inline constexpr double kCycleTime = 0.05;  // t_s (paper, tab:VarPar) [s]
 
-// End stops of the actuators: what a vehicle can do, wider than what a controller asks of it.
+// End stops of the actuators: the limits of a vehicle, wider than those of a controller.
 inline constexpr double kSteeringStop = 0.65;          // [rad]
 inline constexpr double kHardestBraking = -9.81;       // [m/s²]
 inline constexpr double kStrongestAcceleration = 4.0;  // [m/s²]
@@ -107,8 +107,9 @@ struct Expectations {
 struct Scenario {
   Scenario(control::Route path, const control::RoadBounds& bounds) : route(std::move(path)), road(bounds) {}
 
-  // Sets `initial` and `initial_delta`: on the route at `along` [m] in steady cornering, so that the vehicle's
-  // velocity, not its axis, points along the road; then moved to the left by `lateral` [m] and turned by `heading`.
+  // Sets `initial` and `initial_delta`: on the route at `along` [m] in steady cornering at `speed` [m/s], so that the
+  // vehicle's velocity, not its axis, points along the road; then moved to the left by `lateral` [m] and rotated by
+  // `heading` [rad].
   void PlaceVehicle(double along, double speed, double lateral = 0.0, double heading = 0.0);
 
   std::string name;
@@ -119,8 +120,8 @@ struct Scenario {
 
   control::Route route;
   control::RoadBounds road;
-  std::vector<control::Obstacle> obstacles;  // as of the start
-  std::map<int, double> appears_at;  // of obstacles by id, since the start [s]; perceived at once if not here
+  std::vector<control::Obstacle> obstacles;  // at the start
+  std::map<int, double> appears_at;          // since the start [s], by obstacle id; none: perceived at once
 
   PlantParameters plant;
   control::Footprint footprint;
@@ -128,12 +129,12 @@ struct Scenario {
   ActuatorParameters acceleration;
   SensorParameters sensors;
   control::State initial = control::State::Zero();
-  double initial_delta = 0.0;  // that keeps the vehicle on the route's curvature at the start
+  double initial_delta = 0.0;  // steering angle for the route's curvature at the start [rad]
   DriverPlan driver;
   Expectations expect;
 };
 
-// Throws config::ConfigError that names file, line, key, value and what is allowed.
+// Throws config::ConfigError, which names file, line, key, value and what is allowed.
 [[nodiscard]] Scenario LoadScenario(const std::filesystem::path& file);
 
 }  // namespace sim

@@ -5,7 +5,7 @@
 
 namespace sim {
 
-// Box-Muller transform: std::normal_distribution differs between standard libraries.
+// Box-Muller transform; std::normal_distribution differs between standard libraries.
 double Sensors::Normal() {
   const auto uniform = [this] { return (static_cast<double>(random_() >> 11) + 0.5) * 0x1.0p-53; };
   const double radius = std::sqrt(-2.0 * std::log(uniform()));

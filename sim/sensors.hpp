@@ -1,4 +1,4 @@
-// What the vehicle measures of its own motion: the truth plus Gaussian noise. Quantisation is the bus's own.
+// The vehicle's measurements of its own motion: the truth plus Gaussian noise. Quantisation is added by the bus.
 #pragma once
 
 #include <cstdint>

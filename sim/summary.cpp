@@ -16,7 +16,7 @@ namespace sim {
 namespace {
 
 constexpr double kStandstillSpeed = 0.05;  // [m/s]
-constexpr int kStandstillCycles = 40;      // for good, not on the way through
+constexpr int kStandstillCycles = 40;      // at rest for good, not just in passing
 constexpr int kMissesModulus = 1024;       // of ControllerStatus
 
 void KeepSmaller(std::optional<double>& smallest, double value) {

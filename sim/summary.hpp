@@ -1,6 +1,6 @@
-// What came of a drive: measured each cycle on the vehicle's true state and on what the controller told, from
-// its engagement on, and held against the scenario's expectations. Between two cycles nothing is measured: a point
-// passes an obstacle's edge by less than what is seen, a footprint as long as a car by millimetres.
+// The result of a drive: measured each cycle on the vehicle's true state and on the controller's reports, from its
+// engagement on, and compared with the scenario's expectations. Nothing is measured between two cycles, so the true
+// clearance can be smaller than the recorded one; for a footprint as long as a car, by millimetres.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace sim {
 
-// What a controller could not meet, as it told on the bus. On a real bus that may be heard in the cycle after.
+// A constraint that the controller reported as unmet. On a real bus the report may arrive one cycle later.
 struct UnmetConstraint {
-  std::int64_t step = 0;  // of the drive, from 0
+  std::int64_t step = 0;  // of the drive, counted from 0
   bus::ConstraintReport report;
 };
 
 struct Summary {
-  bool completed = false;    // driven by the controller to the end of the route or of the scenario's duration
+  bool completed = false;    // the controller drove to the end of the route or of the scenario's duration
   std::int64_t steps = 0;    // cycles from engagement on
-  int infeasible_steps = 0;  // of those, cycles in mode Active whose solver status was not Solved
-  int relaxed_steps = 0;     // cycles of which the plan gave way in a softened constraint
-  int rejected_plans = 0;    // cycles of which the plan failed the check before it was followed
+  int infeasible_steps = 0;  // of these, in mode Active or Degraded with a status other than Solved
+  int relaxed_steps = 0;     // cycles whose plan relaxed a soft constraint
+  int rejected_plans = 0;    // cycles whose plan failed the check before it was followed
   std::optional<UnmetConstraint> first_unmet;
-  std::optional<UnmetConstraint> worst_unmet;  // of the largest amount
-  // Signed distance of the vehicle's footprint to the nearest obstacle's edge, negative in contact.
+  std::optional<UnmetConstraint> worst_unmet;  // that with the largest amount
+  // Signed distance from the vehicle's footprint to the nearest obstacle's edge, negative in contact.
   std::optional<double> min_clearance_m;
-  // Of the footprint's outermost corner to the nearer road edge, negative off the road.
+  // Signed distance from the footprint's outermost corner to the nearer road edge, negative off the road.
   std::optional<double> min_road_margin_m;
-  std::optional<std::int64_t> contact_step;   // the first at which the clearance was negative, from 0
-  std::optional<std::int64_t> off_road_step;  // the first at which the road margin was negative
-  bool standing = false;                      // the vehicle stood still at the end
+  std::optional<std::int64_t> contact_step;   // the first step with negative clearance, from 0
+  std::optional<std::int64_t> off_road_step;  // the first step with a negative road margin
+  bool standing = false;                      // the vehicle was at standstill at the end
   std::optional<double> rms_lateral_error_m;  // distance to the reference path
-  int solve_time_median_us = 0;               // of the whole control step, as the controller told it
+  int solve_time_median_us = 0;               // of the whole control step, as reported by the controller
   int solve_time_p99_us = 0;
   int solve_time_max_us = 0;
   int deadline_misses = 0;
@@ -46,15 +46,15 @@ struct Summary {
 
 class Recorder {
  public:
-  explicit Recorder(const Scenario& scenario) : scenario_(&scenario) {}  // which must outlive the recorder
+  explicit Recorder(const Scenario& scenario) : scenario_(&scenario) {}  // must outlive the recorder
 
-  // Once a cycle, after the controller's frames and before VirtualVehicle::Advance().
+  // Must be called once per cycle, after the controller's frames and before VirtualVehicle::Advance().
   void Record(const VirtualVehicle& vehicle);
 
-  // True at the end of the duration or of the route; and when nothing more is to come of the drive: the
-  // vehicle stands, or takes more than twice the route's time.
+  // True at the end of the duration or of the route, or if the state is not finite. Without a duration, also when the
+  // vehicle stays at standstill and the controller does not drive, or 10 s after twice the route's time.
   [[nodiscard]] bool finished() const { return finished_; }
-  [[nodiscard]] double arc_length() const { return arc_length_; }  // place on the route [m]
+  [[nodiscard]] double arc_length() const { return arc_length_; }  // of the vehicle on the route [m]
 
   [[nodiscard]] Summary Result() const;
 
@@ -67,7 +67,7 @@ class Recorder {
   [[nodiscard]] bool EndReached(const VirtualVehicle& vehicle) const;
 
   const Scenario* scenario_;
-  bool engaged_ = false;  // since some cycle
+  bool engaged_ = false;  // the controller was active in some cycle
   bool finished_ = false;
   std::optional<double> hint_;
   double arc_length_ = 0.0;
@@ -78,10 +78,10 @@ class Recorder {
   Summary summary_;
 };
 
-// One JSON object with the names above, the solve times as {"median", "p99", "max"} of solve_time_us, and
-// `passed`; an unmet constraint as {"step", "verdict", "constraint", "index", "horizon_step", "amount"}.
+// Returns one JSON object with the names above and `passed`. The solve times are {"median", "p99", "max"} of
+// solve_time_us; an unmet constraint is {"step", "verdict", "constraint", "index", "horizon_step", "amount"}.
 [[nodiscard]] std::string ToJson(const Summary& summary);
-// A few lines for a terminal.
+// Returns a few lines for a terminal.
 [[nodiscard]] std::string ToText(const Summary& summary);
 
 }  // namespace sim

@@ -1,16 +1,16 @@
 // The vehicle, its sensors, its perception and its driver as the bus sees them: frames out, frames in, on
-// synthetic time that goes on by kCycleTime with every Advance().
+// simulated time that advances by kCycleTime with every Advance().
 //
 //   sim::VirtualVehicle vehicle(scenario, bus);
 //   while (...) {
 //     for (const can::Frame& frame : vehicle.Sense(now)) Send(frame);
-//     ... vehicle.Receive(frame) of every frame that comes back, in lock step until vehicle.Answered() ...
+//     ... vehicle.Receive(frame) for every received frame, in lock step until vehicle.Answered() ...
 //     vehicle.Advance();
 //   }
 //
-// A command is obeyed while its message says Enable and it was renewed within the last kCommandLifetime cycles.
-// Else the driver holds the wheel where it is, at once, whatever command is still on its way to the actuators; the
-// pedals are left alone before the controller was first obeyed, and after that the driver brakes gently to a stop.
+// A command is obeyed while its message has Enable set and was renewed within the last kCommandLifetime cycles.
+// Otherwise the driver at once holds the wheel where it is, whatever command is still on its way to the actuators. The
+// driver leaves the pedals alone until the controller is first obeyed, and after that brakes gently to a stop.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@
 namespace sim {
 
 inline constexpr int kCommandLifetime = 10;          // [cycles]
-inline constexpr double kDriverDeceleration = -2.0;  // of a driver who took over [m/s²]
+inline constexpr double kDriverDeceleration = -2.0;  // of a driver who has taken over [m/s²]
 inline constexpr double kIntegrationStep = 1e-3;     // [s]
 
 class VirtualVehicle {
@@ -37,49 +37,49 @@ class VirtualVehicle {
   // `bus` must outlive the vehicle.
   VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& bus);
 
-  // The frames of one cycle, stamped `now`, once per cycle: DriverRequest, three of ObstacleObject for each
-  // obstacle that has appeared, ObstacleList, then the state set: VehiclePose, VehicleMotion, VehicleFeedback. They stay until
-  // the next call. A message whose value is not finite is left out.
+  // Returns the frames of one cycle, stamped `now`; must be called once per cycle: DriverRequest, three of
+  // ObstacleObject for each obstacle that has appeared, ObstacleList, then the state set: VehiclePose, VehicleMotion,
+  // VehicleFeedback. They are valid until the next call. A message with a value that is not finite is omitted.
   [[nodiscard]] std::span<const can::Frame> Sense(can::Time now);
 
-  // Takes a frame of the controller; one with a wrong CRC changes nothing, one of another sender neither.
+  // Takes a frame of the controller. A frame with a wrong CRC or of another sender has no effect.
   void Receive(const can::Frame& frame);
 
-  // True once both commands that answer this cycle's state set have come, and a ControllerStatus after them.
+  // True once both commands that answer this cycle's state set, and a ControllerStatus after them, were received.
   [[nodiscard]] bool Answered() const {
     return steering_.answered && acceleration_.answered && status_after_;
   }
 
-  // Applies the commands for one cycle.
+  // Applies the commands and simulates one cycle.
   void Advance();
 
-  // Since the start [s].
+  // Simulated time since the start [s].
   [[nodiscard]] double time() const { return static_cast<double>(cycle_) * kCycleTime; }
-  // The truth.
+  // The true state.
   [[nodiscard]] const control::State& state() const { return plant_.state(); }
   [[nodiscard]] control::Input actuators() const {
     return {steering_actuator_.value(), acceleration_actuator_.value()};
   }
-  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;  // those not perceived, too
+  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;  // including those not yet perceived
 
-  // What the controller told last.
+  // The controller's last report.
   [[nodiscard]] bus::Mode mode() const { return status_.mode; }
   [[nodiscard]] const bus::ControllerStatus& status() const { return status_; }
-  [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // came since the last Advance()
-  // What the controller could not meet, if it told so since the last Advance().
+  [[nodiscard]] bool status_is_new() const { return status_is_new_; }  // received since the last Advance()
+  // The constraint that the controller reported as unmet since the last Advance(), if any.
   [[nodiscard]] const std::optional<bus::ConstraintReport>& unmet() const { return unmet_; }
-  [[nodiscard]] bool heard() const { return heard_; }  // any status came at all
-  // Frames with a wrong CRC or length, or the invalid counter.
+  [[nodiscard]] bool heard() const { return heard_; }  // any status was received
+  // Number of frames with a wrong CRC or length, or the invalid counter.
   [[nodiscard]] std::uint64_t rejected_frames() const { return rejected_frames_; }
-  // Cycles without a command, once one was obeyed.
+  // Number of cycles in which a command was missing, after both were first obeyed.
   [[nodiscard]] std::uint64_t missed_commands() const { return missed_commands_; }
 
  private:
-  // The last command of one of both messages.
+  // The last command of one of the two messages.
   struct Channel {
     bool enable = false;
     double value = 0.0;
-    int age = kCommandLifetime;  // cycles since it came
+    int age = kCommandLifetime;  // cycles since it was received
     bool answered = false;       // it answers this cycle's state set
 
     [[nodiscard]] bool Obeyed() const { return enable && age < kCommandLifetime; }
@@ -99,7 +99,7 @@ class VirtualVehicle {
   Actuator acceleration_actuator_;
   Sensors sensors_;
   Driver driver_;
-  std::vector<control::Obstacle> obstacles_;  // as of the start
+  std::vector<control::Obstacle> obstacles_;  // at the start
   std::map<int, double> appears_at_;
 
   std::int64_t cycle_ = 0;
@@ -110,7 +110,7 @@ class VirtualVehicle {
 
   Channel steering_;
   Channel acceleration_;
-  bool obeyed_ = false;  // at some time
+  bool obeyed_ = false;  // both commands were obeyed at some time
   bus::ControllerStatus status_;
   bool status_is_new_ = false;
   std::optional<bus::ConstraintReport> unmet_;

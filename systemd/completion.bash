@@ -1,4 +1,4 @@
-# Bash completion of lpvmpcd, lpvmpc-sim and lpvmpc. Options and commands are those that --help tells.
+# Bash completion of lpvmpcd, lpvmpc-sim and lpvmpc. Options and commands are those of --help.
 _lpvmpcd() {
   local cur prev words cword
   _init_completion || return
@@ -10,7 +10,7 @@ _lpvmpcd() {
       ;;
     --controller)
       local kinds="lpv-affine lpv lpv-standard"
-      [[ ${words[0]##*/} != lpvmpc ]] || kinds+=" nmpc nmpc-affine" # which no daemon drives by
+      [[ ${words[0]##*/} != lpvmpc ]] || kinds+=" nmpc nmpc-affine" # not available in the daemon
       _lpvmpcd_offer "$kinds"
       return
       ;;
@@ -20,7 +20,7 @@ _lpvmpcd() {
     --horizon | --repeat | --jobs | --timeout | --count | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers
   esac
 
-  # The command so far: each word that names a command of the one before it.
+  # The command so far: each word that names a subcommand of the one before it.
   local i path=() commands
   commands=$(_lpvmpcd_commands)
   for ((i = 1; i < cword; i++)); do
@@ -41,13 +41,13 @@ _lpvmpcd() {
   fi
 }
 
-# Those of the words "$1" that begin like the one at the cursor.
+# Offers the words of "$1" that begin like the one at the cursor.
 _lpvmpcd_offer() {
   # shellcheck disable=SC2207 # words without blanks
   COMPREPLY=($(compgen -W "$1" -- "$cur"))
 }
 
-# The commands that follow those of `path`, on one line.
+# Prints the subcommands of `path` on one line.
 _lpvmpcd_commands() {
   "${words[0]}" "${path[@]}" --help 2>/dev/null |
     sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p' | tr '\n' ' ' | sed 's/ $//'

@@ -32,7 +32,8 @@ class PlanCheck {
   // more acceleration than friction allows [m/s²]. Road and friction count only where the excess is more than 0.02 m or
   // 0.3 m/s² above the initial one, which is not the plan's fault. The search for the vehicle's place on the course
   // begins at `s` [m]. Does not allocate.
-  [[nodiscard]] std::optional<ConstraintViolation> Validate(const State& z, double s, std::span<const Input> u,
+  [[nodiscard]] std::optional<ConstraintViolation> Validate(const State& z, double s,
+                                                            std::span<const Input> u,
                                                             std::span<const Obstacle> obstacles) const;
 
  private:

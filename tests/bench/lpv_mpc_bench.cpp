@@ -1,4 +1,4 @@
-// A whole control step in closed loop on a straight road past an obstacle: mean over the drive.
+// A whole control step in closed loop on a straight road past an obstacle, averaged over the drive.
 #include <benchmark/benchmark.h>
 
 #include "control/mpc/lpv_mpc.hpp"

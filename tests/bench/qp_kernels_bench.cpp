@@ -14,7 +14,7 @@
 namespace control {
 namespace {
 
-// The solver's parts after a solve, each at work on one problem.
+// The solver's parts after a solve, all working on one problem.
 struct Kernels {
   explicit Kernels(const std::string& name)
       : qp(tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build()),
@@ -50,7 +50,7 @@ struct Kernels {
   void Residuals() { benchmark::DoNotOptimize(interior_point.Residuals(qp)); }
   void KktCheck() { benchmark::DoNotOptimize(EvaluateKkt(qp, solver.solution()).Max()); }
 
-  // With a gradient of ones in the last state alone.
+  // Sweeps with a gradient of ones in the last state alone.
   template <typename SweepStages>
   void SweepFromLastStage(SweepStages& stages) {
     detail::ClearGradients(stages.size() - 1, stages);
@@ -88,7 +88,7 @@ LPVMPC_KERNEL(NewtonStepWithItsLength);
 LPVMPC_KERNEL(Residuals);
 LPVMPC_KERNEL(KktCheck);
 
-// Argument: rows, all of which press in the end. The time is that of all changes.
+// Argument: number of rows, all of which are active in the end. The time is that of all changes of the working set.
 void DualSolve(benchmark::State& state) {
   const int size = static_cast<int>(state.range(0));
   testing::Random random(1);

@@ -1,5 +1,5 @@
-// The solver on recorded problems: cold, warm from the solution recorded three steps earlier, and without any row,
-// where one Riccati sweep is all.
+// The solver on recorded problems: cold, warm from the solution of the problem recorded three steps earlier, and
+// without any row, where one Riccati sweep is all.
 #include <benchmark/benchmark.h>
 #include <string>
 

@@ -22,8 +22,7 @@ inline can::Frame MakeFrame(const bus::VehicleBus& bus, const bus::Message& mess
   return frame;
 }
 
-// A scripted vehicle with its driver and its perception: what is set in the members is what the next frames
-// tell.
+// A scripted vehicle with its driver and its perception: the next frames carry the values of the members.
 class FakeVehicle {
  public:
   explicit FakeVehicle(const bus::VehicleBus& bus) : bus_(&bus) {}
@@ -64,7 +63,7 @@ class FakeVehicle {
   [[nodiscard]] std::uint8_t last_state_counter() const {
     return static_cast<std::uint8_t>((state_counter_ + dbc::kCounterModulus - 1) % dbc::kCounterModulus);
   }
-  // Leaves out one state set: its counter goes by.
+  // Leaves out one state set; its counter value is skipped.
   void SkipState() { Next(state_counter_); }
 
  private:

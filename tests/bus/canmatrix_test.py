@@ -8,7 +8,7 @@ import math
 import subprocess
 import sys
 
-logging.disable(logging.WARNING)  # the import warns of every format that it lacks a package for
+logging.disable(logging.WARNING)  # the import warns about every format whose package is missing
 try:
     import canmatrix.formats
 except ImportError:
@@ -44,7 +44,7 @@ def compare(line, frames):
     if frame.is_multiplexed:
         page = int(ours[frame.get_multiplexer.name])
         known = {signal.mux_val for signal in frame.signals if signal.mux_val is not None}
-        if page not in known:  # random bits: nothing but the signals that are always there
+        if page not in known:  # random bits that select no page: only the signals outside the pages are present
             known_signals = {s.name for s in frame.signals if s.mux_val is None}
             assert set(ours) == known_signals, line
             return frame.name, page, 0

@@ -1,7 +1,6 @@
-// Prints random frames of every kind, one a line, for a second decoder to compare:
+// Prints random frames of every kind, one per line, for comparison with a second decoder:
 //   ID HEX name=value name=value ...
-// with the values as our codec decodes them. Frames come from the typed messages, with extremes, and from
-// random bits.
+// The values are those that our codec decodes. The frames are typed messages, with extremes, and random bits.
 #include <array>
 #include <bit>
 #include <cstdio>

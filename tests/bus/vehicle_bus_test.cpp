@@ -18,7 +18,7 @@ namespace {
 using dbc::EncodeStatus;
 using testing::HasSubstr;
 
-// One of each typed message, no member at its default.
+// One of each typed message, with no member at its default.
 const std::vector<Message>& Samples() {
   static const std::vector<Message> kSamples{
       VehiclePose{.X = -1234.5678, .Y = 3355.4431},
@@ -251,7 +251,7 @@ TEST(VehicleBus, OwnFramesAreInRangeUntilOneOfTheirValuesIsNot) {
   EXPECT_TRUE(bus.InRange(raw.id, raw.Payload()));
   dbc::WriteRaw(heading, 7855, raw.data);
   EXPECT_FALSE(bus.InRange(raw.id, raw.Payload()));
-  // The same bits in the frame of a position are part of a Y.
+  // In the frame of a position the same bits are part of Y.
   dbc::WriteRaw(*object.Find("Part"), 0, raw.data);
   EXPECT_TRUE(bus.InRange(raw.id, raw.Payload()));
 }
@@ -278,8 +278,7 @@ TEST(VehicleBus, StaysBoundWhenMoved) {
 }
 
 TEST(VehicleBus, TakesItsLayoutFromTheDbcAlone) {
-  // The same names elsewhere on the wire: Motorola, another factor, another id, the pages of the horizon
-  // swapped.
+  // The same names elsewhere on the wire: another id, Motorola byte order, another factor.
   std::string text = Replaced("BO_ 513 ", "BO_ 1281 ");
   for (std::size_t at = 0; (at = text.find(" 513 ", at)) != std::string::npos;) text.replace(at, 5, " 1281 ");
   const std::string from = "Acceleration : 26|18@1- (0.0001,0)";

@@ -1,4 +1,4 @@
-// What vehicle.dbc itself must keep to.
+// Rules that vehicle.dbc itself must satisfy.
 #include <gtest/gtest.h>
 #include <set>
 #include <string>
@@ -61,7 +61,7 @@ TEST_F(VehicleDbc, EveryRangeIsHeldByTheBits) {
       SCOPED_TRACE(message.name + " " + signal.name);
       ASSERT_TRUE(signal.HasRange());
       const double ends[] = {signal.min, signal.max};
-      signal.min = signal.max = 0.0;  // the bits alone
+      signal.min = signal.max = 0.0;  // no range: only the bits limit the value
       for (const double end : ends) {
         std::array<std::byte, 8> payload{};
         EXPECT_EQ(dbc::EncodeSignal(signal, end, payload), dbc::EncodeStatus::kOk);

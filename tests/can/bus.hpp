@@ -1,4 +1,4 @@
-// What the tests on a real vcan share.
+// Helpers of the tests on a real vcan.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ inline Frame MakeFrame(std::uint32_t id, std::initializer_list<int> payload = {}
   return frame;
 }
 
-// The status of the next Receive that is not kWouldBlock, or kWouldBlock if there is none for a second.
+// The first status of Receive other than kWouldBlock; kWouldBlock if nothing arrives within a second.
 inline ReceiveStatus ReceiveSoon(Socket& socket, Received& received) {
   const std::chrono::seconds timeout(1);
   ReceiveStatus status = ReceiveStatus::kWouldBlock;
@@ -29,7 +29,7 @@ inline ReceiveStatus ReceiveSoon(Socket& socket, Received& received) {
   return status;
 }
 
-// All frames that are in the receive buffer.
+// All frames in the receive buffer.
 inline std::vector<Received> Drain(Socket& socket) {
   std::vector<Received> all;
   Received received;

@@ -1,4 +1,4 @@
-// Our log lines and can-utils' understand each other.
+// Log lines are compatible with can-utils in both directions.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(CanUtils, CandumpsTextOfOurFramesIsReadAsTheSameFrames) {
   const std::vector<Frame> frames = OneOfEachKind();
   Socket sender("vcan0", {.receive_own = true, .fd_frames = true});
   Process candump({"stdbuf", "-oL", "candump", "-L", "vcan0,0:0,#FFFFFFFF"});
-  // candump tells not when it listens, so a frame of its own id is sent until it shows up.
+  // candump does not report when it starts to listen, so a frame with a spare id is sent until it shows up.
   ASSERT_TRUE(WaitUntil([&] {
     EXPECT_EQ(sender.Send(MakeFrame(0x001)), SendStatus::kSent);
     return !candump.Stdout().empty();
@@ -54,7 +54,7 @@ TEST(CanUtils, CandumpsTextOfOurFramesIsReadAsTheSameFrames) {
     ASSERT_TRUE(result) << line << ": " << result.error();
     ASSERT_TRUE(result->has_value()) << line;
     EXPECT_EQ((*result)->interface, "vcan0");
-    // Newer kernels set CANFD_FDF among the flags of an FD frame, which is no part of a Frame.
+    // Newer kernels set CANFD_FDF among the flags of an FD frame; Frame does not hold it.
     if (!(*result)->frame.fd) {
       EXPECT_EQ(FormatCandumpLine((*result)->frame, "vcan0"), line) << "we write what candump writes";
     }

@@ -154,7 +154,7 @@ RC_GTEST_PROP(CandumpLog, WhatIsWrittenIsReadBack, ()) {
   RC_ASSERT(FormatCandumpLine((*result)->frame, "vcan12") == line);
 }
 
-// A damaged line is refused or read as a valid frame, and a refusal names a column, at most one past the end.
+// A damaged line is rejected or read as a valid frame; a rejection names a column, at most one past the end.
 RC_GTEST_PROP(CandumpLog, DamagedLinesAreReadSafely, ()) {
   std::string line = FormatCandumpLine(AnyFrame(), "vcan0");
   const auto position = *rc::gen::inRange<std::size_t>(0, line.size());

@@ -103,7 +103,7 @@ TEST_F(Interface, FdFrameOnAnInterfaceWithoutFdIsInvalid) {
 TEST(InterfaceKind, VirtualIsWhatItsDriverSays) {
   EXPECT_TRUE(IsVirtual("vcan0"));
   EXPECT_FALSE(IsVirtual("lo"));
-  EXPECT_FALSE(IsVirtual("can77"));  // there is none
+  EXPECT_FALSE(IsVirtual("can77"));  // does not exist
   EXPECT_FALSE(IsVirtual("a-name-that-is-too-long"));
 }
 

@@ -1,4 +1,4 @@
-// What of the socket needs no CAN bus; the rest is in socket_vcan_test.cpp.
+// Tests of the socket that need no CAN bus; the others are in socket_vcan_test.cpp.
 #include "can/socket.hpp"
 
 #include <gtest/gtest.h>

@@ -35,7 +35,7 @@ class RouteFileTest : public testing::Test {
     Write("route.toml", text);
     return LoadRoute(folder_ / "route.toml");
   }
-  // The error's text after the folder.
+  // The error text after the folder's path.
   std::string ErrorOf(const std::string& text) const {
     try {
       (void)Load(text);

@@ -46,7 +46,7 @@ TEST(TomlTable, ValuesAreAllThatIsWrittenByFullKey) {
   ASSERT_EQ(values.size(), 4U);
   EXPECT_EQ(values.at("a"), "1");
   EXPECT_EQ(values.at("b.c"), "[ 1, 2.5 ]");
-  EXPECT_NE(values.at("b.d"), "x");  // a text is not a number that looks like it
+  EXPECT_NE(values.at("b.d"), "x");  // distinct from a bare value of the same text
   EXPECT_EQ(values.at("b.e.f"), "true");
   EXPECT_TRUE(table.Table("none").Values().empty());
 }

@@ -1,4 +1,4 @@
-// Derivatives by central differences, and how near analytic ones are to them.
+// Derivatives by central differences, and their comparison with analytic ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,7 +23,7 @@ Eigen::MatrixXd Differences(const Eigen::VectorXd& at, const Function& function)
   return jacobian;
 }
 
-// Against entries of any size.
+// Expects an error below `tolerance`, relative to large entries and absolute for small ones.
 inline void ExpectClose(const Eigen::MatrixXd& analytic, const Eigen::MatrixXd& numeric,
                         double tolerance = 1e-6) {
   ASSERT_EQ(analytic.rows(), numeric.rows());

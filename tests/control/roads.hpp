@@ -1,4 +1,4 @@
-// Roads for tests that need one.
+// Roads for tests.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ inline Route StraightRoad(double length, double speed) {
   return Route::FromPieces({}, speed, std::array{RoutePiece{.length = length}});
 }
 
-// To the left, without a clothoid before it.
+// A circle to the left, without a clothoid before it.
 inline Route CircularRoad(double radius, double turns, double speed) {
   const double curvature = 1.0 / radius;
   return Route::FromPieces({}, speed,
@@ -21,7 +21,7 @@ inline Route CircularRoad(double radius, double turns, double speed) {
                                                  .curvature_to = curvature}});
 }
 
-// Straight, left, right and straight, with clothoids between.
+// Straight, left, right and straight, joined by clothoids.
 inline Route WindingRoad(double radius, double speed) {
   constexpr double kClothoid = 20.0, kArc = 30.0, kStraight = 50.0;
   const double k = 1.0 / radius;
@@ -36,7 +36,7 @@ inline Route WindingRoad(double radius, double speed) {
                  RoutePiece{.length = kStraight}});
 }
 
-// There and back again, the way back `apart` to the left of the way there.
+// A road out and back; the second leg is `apart` [m] to the left of the first.
 inline Route HairpinRoad(double leg, double apart, double speed) {
   const double curvature = 2.0 / apart;
   return Route::FromPieces({}, speed,

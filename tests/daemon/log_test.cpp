@@ -16,7 +16,7 @@ TEST(Log, JournalIsToldByDeviceAndInode) {
   const std::string stream = fmt::format("{}:{}", status.st_dev, status.st_ino);
   EXPECT_TRUE(IsJournal(pipe[1], stream));
   EXPECT_FALSE(
-      IsJournal(pipe[1], stream + "0"));  // inherited from a service, but stderr was redirected since
+      IsJournal(pipe[1], stream + "0"));  // inherited from a service, but stderr has been redirected since
   EXPECT_FALSE(IsJournal(pipe[1], ""));
   ::close(pipe[0]);
   ::close(pipe[1]);

@@ -1,4 +1,4 @@
-// The notifier against a socket in systemd's place.
+// The notifier with a socket in place of systemd's.
 #include "daemon/notifier.hpp"
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ class NotifierTest : public testing::Test {
     ::close(socket_);
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
   }
-  // All that has been told since the last call.
+  // All messages since the last call.
   std::vector<std::string> Told() const {
     std::vector<std::string> told;
     char text[1024];
@@ -52,7 +52,7 @@ TEST_F(NotifierTest, FeedsTheWatchdogAtLeastTwiceInItsPeriodAndOnlyByCycles) {
   Notifier notifier;
   notifier.Ready();
   EXPECT_EQ(Told(), std::vector<std::string>{"READY=1"});
-  // Cycles as slow as the slowest timeout that leaves room for two in a period.
+  // Cycle times up to the slowest timeout that leaves room for two feeds in a watchdog period.
   for (const base::Time cycle : {base::Time(10ms), base::Time(75ms), base::Time(250ms)}) {
     base::Time last{};
     for (base::Time now = 0s; now <= 10s; now += cycle) {

@@ -9,7 +9,7 @@ namespace {
 
 using can::SendStatus;
 
-// A queue that takes a number of frames and then answers `otherwise`.
+// A queue that takes `room_` frames and then answers `otherwise_`.
 class TransmitterTest : public testing::Test {
  protected:
   void Refill(int room) {
@@ -83,7 +83,7 @@ TEST_F(TransmitterTest, CommandsRefusedThreeTimesInARowAreABusDown) {
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
   Refill(4);
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
-  Refill(1);  // a steering alone is no pair
+  Refill(1);  // a steering command alone is no pair
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kUp);
   EXPECT_EQ(transmitter_.Send(cycle_), BusState::kDown);
@@ -99,7 +99,7 @@ TEST_F(TransmitterTest, NothingFollowsAFrameThatIsNotSent) {
       [&calls](const can::Frame&) { return ++calls == 1 ? SendStatus::kQueueFull : SendStatus::kSent; },
       [] { return base::Time{}; });
   transmitter.Send(cycle_);
-  EXPECT_EQ(calls, 1);  // no acceleration without its steering
+  EXPECT_EQ(calls, 1);  // no acceleration command without its steering command
 }
 
 TEST_F(TransmitterTest, WhatTheGateDoesNotLetThroughIsNotSent) {

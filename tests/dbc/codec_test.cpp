@@ -17,7 +17,7 @@ using dbc::ValueType;
 using Payload = std::array<std::byte, 8>;
 
 // The numbers of a signal's bits in the payload (bit % 8 of byte bit / 8), the most significant one first, as
-// the DBC format tells it: written without any arithmetic that the codec uses.
+// the DBC format defines them: written without any arithmetic that the codec uses.
 std::vector<unsigned> BitsFromTheTop(const Signal& signal) {
   std::vector<unsigned> bits;
   if (signal.byte_order == ByteOrder::kIntel) {
@@ -26,7 +26,7 @@ std::vector<unsigned> BitsFromTheTop(const Signal& signal) {
     unsigned bit = signal.start_bit;
     for (unsigned i = 0; i < signal.length; ++i) {
       bits.push_back(bit);
-      bit = bit % 8 == 0 ? bit + 15 : bit - 1;  // after bit 0 of a byte comes bit 7 of the next
+      bit = bit % 8 == 0 ? bit + 15 : bit - 1;  // bit 0 of a byte is followed by bit 7 of the next
     }
   }
   return bits;
@@ -141,7 +141,7 @@ TEST(Codec, EncodedValueComesBackWithinHalfAFactor) {
 TEST(Codec, DecodedValueEncodesToTheSameBits) {
   std::mt19937_64 random(4);
   ForEachLayout([&](Signal signal) {
-    if (signal.length > 50) return;  // a double holds no more
+    if (signal.length > 50) return;  // a double holds no more bits
     signal.factor = 0.001;
     signal.offset = -40.0;
     const Payload before = RandomPayload(random);
@@ -307,7 +307,7 @@ TEST(Codec, ValueBeyondAFloatSaturatesToTheLargestFloat) {
 
 TEST(Codec, SignalOfMoreThanEightBytesOfPayloadIsReachedInFdFrames) {
   Signal signal = Make(64, ValueType::kUnsigned);
-  signal.start_bit = 8 * 55 + 3;  // goes through nine bytes
+  signal.start_bit = 8 * 55 + 3;  // spans nine bytes
   std::array<std::byte, 64> payload{};
   ASSERT_TRUE(dbc::Fits(signal, payload.size()));
   dbc::WriteRaw(signal, 0x8123456789ABCDEFu, payload);

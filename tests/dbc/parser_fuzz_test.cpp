@@ -1,4 +1,4 @@
-// Damaged text: Parse gives a database or throws DbcError, nothing else, and what it gives can be used.
+// Damaged text: Parse either returns a database that can be used or throws DbcError.
 #include <array>
 #include <gtest/gtest.h>
 #include <random>

@@ -144,7 +144,7 @@ TEST(Parser, ExtendedMultiplexingTellsWhichSignalsArePresent) {
 }
 
 TEST(Parser, RealFilesAreRead) {
-  // No VERSION, NS_, BS_, BU_; line ends of Windows; a byte order mark.
+  // No VERSION, NS_, BS_, BU_; Windows line ends; a byte order mark.
   EXPECT_EQ(Parse("\xEF\xBB\xBF"
                   "BO_ 1 M: 8 N\r\n SG_ A : 0|8@1+ (1,0) [0|0] \"\" N\r\n",
                   "a.dbc")
@@ -167,14 +167,14 @@ TEST(Parser, RealFilesAreRead) {
             0.5);
   EXPECT_THAT(Only(Parse(WithSignals("SG_ A : 0|8@1+ (1,0) [0|0] \"\" N O P"), "a.dbc")).receivers,
               ElementsAre("N", "O", "P"));
-  // Ranges that are none.
+  // Ranges that do not count as such.
   EXPECT_FALSE(Only(Parse(WithSignals("SG_ A : 0|8@1+ (1,0) [0|0] \"\" N"), "a.dbc")).HasRange());
   EXPECT_FALSE(Only(Parse(WithSignals("SG_ A : 0|8@1+ (1,0) [5|-5] \"\" N"), "a.dbc")).HasRange());
   // DLC 0 and above 8.
   EXPECT_EQ(
       Parse("BO_ 1 M: 0 N\nBO_ 2 F: 64 N\n SG_ A : 504|8@1+ (1,0) [0|0] \"\" N", "a.dbc").messages[1].length,
       64u);
-  // Signals that belong to no message may overlap and lie anywhere.
+  // Signals that belong to no message may overlap and be anywhere.
   const dbc::Database independent = Parse(
       "BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n SG_ A : 0|8@1+ (1,0) [0|0] \"\" N\n"
       " SG_ A : 0|8@1+ (1,0) [0|0] \"\" N\nCM_ SG_ 3221225472 A \"x\";",

@@ -1,9 +1,10 @@
-// For LD_PRELOAD: the CAN sockets of a process become UDP sockets on the loopback, so that the programs run unchanged,
-// with every other system call real, on a kernel that has no CAN. What one process sends, its one peer receives.
+// Library for LD_PRELOAD that turns the CAN sockets of a process into UDP sockets on the loopback: the programs run
+// unchanged, with every other system call real, on a kernel without CAN. Each process has one peer, which receives all
+// that it sends.
 //
 //   CAN_BY_UDP="OWN PEER"    the ports of both
 //
-// Filters, error frames and one's own frames do not exist there.
+// There are no filters, no error frames, and no reception of own frames.
 #include <arpa/inet.h>
 #include <cstdarg>
 #include <cstdint>
@@ -48,7 +49,7 @@ int socket(int domain, int type, int protocol) noexcept {
   return can_socket = real(AF_INET, SOCK_DGRAM | (type & (SOCK_NONBLOCK | SOCK_CLOEXEC)), 0);
 }
 
-// Any name is that of a CAN interface.
+// Every name is accepted as that of a CAN interface.
 int ioctl(int fd, unsigned long request, ...) noexcept {
   std::va_list arguments;
   va_start(arguments, request);

@@ -1,7 +1,7 @@
-// What the daemon costs at 20 Hz in the demonstration: processor time as the host's own kernel counts it, to the
-// nanosecond, and memory. User-Mode Linux can tell neither: its clock of processor time ticks every 10 ms, and a system
-// call takes a hundred times what it takes here. So the bus is UDP on the loopback (can_by_udp.cpp), which costs more
-// than CAN; all the rest of the daemon is as it is.
+// Cost of the daemon at 20 Hz in the demonstration: memory, and processor time, which the host's own kernel counts to
+// the nanosecond. User-Mode Linux cannot measure processor time: its clock ticks every 10 ms, and a system call takes a
+// hundred times as long as here. The bus is therefore UDP on the loopback (can_by_udp.cpp), which costs more than CAN;
+// the rest of the daemon is unchanged.
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using std::chrono::steady_clock;
 
 constexpr const char* kDemonstration = LPVMPC_SOURCE_DIR "/scenarios/demo";
 
-// Nanoseconds on a processor.
+// Processor time [ns].
 double CpuTime(pid_t pid) {
   double time = 0.0;
   std::ifstream("/proc/" + std::to_string(pid) + "/schedstat") >> time;
@@ -53,9 +53,9 @@ TEST(CpuTime, DaemonAt20HzTakesLessThanAHundredthOfACoreAnd20Megabytes) {
   const double elapsed = std::chrono::duration<double, std::nano>(steady_clock::now() - begin).count();
   const double percent = 100.0 * (CpuTime(daemon.pid()) - used) / elapsed;
   const double memory =
-      std::stod(test_support::KernelSays(daemon.pid(), "VmHWM")) / 1024.0;  // the most that it had [MB]
+      std::stod(test_support::KernelSays(daemon.pid(), "VmHWM")) / 1024.0;  // peak resident memory [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of a core, " << memory << " MB\n";
-  EXPECT_EQ(vehicle.Wait(60s), 0) << vehicle.Stderr();  // it drove
+  EXPECT_EQ(vehicle.Wait(60s), 0) << vehicle.Stderr();  // the drive was completed
   EXPECT_GT(percent, 0.0);
   EXPECT_LT(percent, 1.0);
   EXPECT_GT(memory, 0.0);

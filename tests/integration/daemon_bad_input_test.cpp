@@ -1,4 +1,4 @@
-// Bad input: one clear line on stderr and a status that is not zero.
+// Bad input yields one clear line on stderr and a non-zero status.
 #include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ class DaemonBadInput : public testing::Test {
     arguments.insert(arguments.begin(), LPVMPCD);
     return test_support::Run(arguments);
   }
-  // The one line that a refused start says.
+  // The one line on stderr of a start that is refused with `status`.
   static std::string Refused(const std::vector<std::string>& arguments, int status) {
     const Outcome outcome = Daemon(arguments);
     EXPECT_EQ(outcome.status, status) << outcome.err;

@@ -1,5 +1,4 @@
-// The real lpvmpcd on a real CAN interface, and opposite to it a scripted vehicle on a straight route at 10
-// m/s.
+// The real lpvmpcd on a real CAN interface, with a scripted vehicle on a straight route at 10 m/s as its peer.
 #pragma once
 
 #include <chrono>
@@ -35,8 +34,7 @@ class DaemonOnBus : public testing::Test {
  protected:
   explicit DaemonOnBus(std::string interface = "vcan0") : interface_(std::move(interface)) {
     std::ofstream(folder_ / "route.toml") << kStraightRoute;
-    // A loaded machine may stop for some tenths of a second: stale a little later, and plans that last
-    // longer.
+    // A loaded machine may pause for some tenths of a second: messages become stale later, and plans are longer.
     std::ofstream(folder_ / "daemon.toml") << "[route]\nfile = \"route.toml\"\n[monitor]\nstale_periods = 8\n"
                                               "[controller]\nhorizon = 20\n";
   }
@@ -56,8 +54,8 @@ class DaemonOnBus : public testing::Test {
     }
   }
 
-  // Reads the next pair of commands; nothing if there is none in time. Holds what holds of every pair: CRC,
-  // counters in sequence, both alike, enabled in Active, Degraded and SafeStop alone. Notes the status that comes by.
+  // Reads the next pair of commands; nothing if none arrives in time. Expects of every pair: CRC, counters in sequence,
+  // both commands alike, enabled only in Active, Degraded and SafeStop. Stores the latest status.
   std::optional<CommandPair> NextPair(std::chrono::milliseconds timeout = 2s) {
     const auto end = steady_clock::now() + timeout;
     can::Received received;
@@ -98,7 +96,7 @@ class DaemonOnBus : public testing::Test {
     }
   }
 
-  // Forgets what was sent so far, and where the counters stood.
+  // Discards the frames so far and forgets the counters.
   void Forget() {
     can::Received ignored;
     while (socket_.Receive(ignored) != can::ReceiveStatus::kWouldBlock) {
@@ -106,8 +104,7 @@ class DaemonOnBus : public testing::Test {
     command_counter_.reset();
   }
 
-  // The pair that answers the state set sent last; those that a timer brought forth before it are passed
-  // over.
+  // The pair that answers the state set sent last; earlier pairs, sent by the timer, are skipped.
   CommandPair Answer() {
     while (const auto pair = NextPair()) {
       if (pair->steering.state_counter == vehicle_.last_state_counter()) return *pair;
@@ -117,7 +114,7 @@ class DaemonOnBus : public testing::Test {
                   << daemon_->Stderr();
     return {};
   }
-  // One period with everything in it, as fast as the daemon answers.
+  // One complete period, as fast as the daemon answers.
   CommandPair Period() {
     vehicle_.pose.X += 0.5;
     Put(vehicle_.All());
@@ -131,8 +128,8 @@ class DaemonOnBus : public testing::Test {
     Put(instead);
     std::this_thread::sleep_for(50ms);
   }
-  // Sends periods in real time, what `state` returns in the state's place, until a pair in SafeStop comes.
-  // The pairs until then, that one included.
+  // Sends periods in real time, with the result of `state` in place of the state, until a pair in SafeStop arrives.
+  // Returns the pairs up to that one.
   template <typename State>
   std::vector<CommandPair> UntilSafeStop(State state) {
     std::vector<CommandPair> pairs;
@@ -146,7 +143,7 @@ class DaemonOnBus : public testing::Test {
     ADD_FAILURE() << "no SafeStop; the daemon says:\n" << daemon_->Stderr();
     return pairs;
   }
-  // From start to Active.
+  // Brings the daemon from its start to Active.
   void Engage() {
     vehicle_.request.engage = false;
     for (int i = 0; i < 50 && Period().steering.mode != bus::Mode::kStandby; ++i) {
@@ -156,7 +153,7 @@ class DaemonOnBus : public testing::Test {
     const CommandPair pair = Period();
     ASSERT_EQ(pair.steering.mode, bus::Mode::kActive) << daemon_->Stderr();
   }
-  // The fault that the status tells; the status follows its commands.
+  // The fault in the status, which follows its commands.
   bus::FaultCode Fault() {
     const auto end = steady_clock::now() + 300ms;
     while (steady_clock::now() < end && !NextPair(10ms)) {
@@ -171,7 +168,7 @@ class DaemonOnBus : public testing::Test {
   can::Socket socket_{interface_};
   std::optional<test_support::Process> daemon_;
   std::optional<std::uint8_t> command_counter_;
-  CommandPair pair_;  // under way
+  CommandPair pair_;  // being received
   bus::ControllerStatus status_;
 };
 

@@ -1,4 +1,4 @@
-// What the process does beside driving: real time, reload, its log, lock step.
+// Duties of the process besides driving: real time, reload, log, lock step.
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -22,7 +22,7 @@ class DaemonService : public DaemonOnBus {
   void Configure(const std::string& text) const {
     std::ofstream(folder_ / "daemon.toml") << "[route]\nfile = \"route.toml\"\n" + text;
   }
-  // Starts the daemon by a command that becomes the one in its arguments.
+  // Starts the daemon through `command`, which must execute the arguments appended to it.
   void StartBy(std::vector<std::string> command) {
     for (const std::string& argument :
          {std::string(LPVMPCD), std::string("--config"), (folder_ / "daemon.toml").string(),
@@ -30,7 +30,7 @@ class DaemonService : public DaemonOnBus {
       command.push_back(argument);
     }
     daemon_.emplace(command);
-    ASSERT_TRUE(NextPair(10s));  // the timer's: it listens
+    ASSERT_TRUE(NextPair(10s));  // sent by the timer: the daemon is listening
   }
   void Reload(const std::string& text) {
     Configure(text);
@@ -39,7 +39,7 @@ class DaemonService : public DaemonOnBus {
 };
 
 TEST_F(DaemonService, GetsTheRealTimeThatItAsksForAndSaysSo) {
-  // Who may not himself (a user namespace) gets none either, and the daemon tells.
+  // Where this process lacks the privilege (a user namespace), the daemon gets no real time either.
   const bool may = test_support::Run({"chrt", "-f", "10", "true"}).status == 0;
   Configure("[realtime]\nfifo_priority = 10\nlock_memory = true\ncpus = [0]\n");
   StartDaemon();
@@ -78,7 +78,7 @@ TEST_F(DaemonService, ReloadTakesAllOrNothing) {
       LogSays("configuration not reloaded: engage.min_speed cannot change while commands are enabled"));
   vehicle_.request.engage = false;
   EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);
-  EXPECT_TRUE(LogSays("mode Active -> Standby"));  // so the level is what it was
+  EXPECT_TRUE(LogSays("mode Active -> Standby"));  // so the level has not changed
 
   Reload("[log]\nlevel = \"info\"\n[engage]\nmin_speed = 12\n");
   EXPECT_TRUE(LogSays("configuration reloaded: engage.min_speed"));
@@ -92,9 +92,9 @@ TEST_F(DaemonService, ReloadTakesAllOrNothing) {
   vehicle_.request.engage = false;
   Period();
   vehicle_.request.engage = true;
-  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);  // neither was taken
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);  // neither was applied
 
-  // The interface of the command line holds whatever the file says.
+  // The interface of the command line overrides that of the file.
   Reload("[bus]\ninterface = \"can7\"\n[log]\nlevel = \"warning\"\n");
   EXPECT_TRUE(LogSays("configuration reloaded: engage.min_speed, log.level"));
   Engage();
@@ -109,7 +109,7 @@ TEST_F(DaemonService, ReaderOfTheLogThatStallsDoesNotStallTheDaemon) {
   ::fcntl(reader, F_SETPIPE_SZ, 8192);
   StartBy({"sh", "-c", "exec \"$@\" 2> " + log.string(), "sh"});
   Engage();
-  // About a hundred characters each time; more than the pipe holds.
+  // Each signal logs about a hundred characters; together they do not fit into the pipe.
   for (int i = 0; i < 100; ++i) {
     daemon_->Signal(SIGUSR1);
     ASSERT_EQ(Period().steering.mode, bus::Mode::kActive) << i;
@@ -125,7 +125,7 @@ TEST_F(DaemonService, ReaderOfTheLogThatStallsDoesNotStallTheDaemon) {
   ::close(reader);
 }
 
-// A socket where the daemon looks for the journal's, in a mount namespace of the daemon's own.
+// A socket in place of the journal's, in a mount namespace private to the daemon.
 class DaemonWithJournal : public DaemonService {
  protected:
   DaemonWithJournal() {
@@ -141,10 +141,10 @@ class DaemonWithJournal : public DaemonService {
     ::close(journal_);
     std::filesystem::remove_all(journal_folder_);
   }
-  // The next entry with this message, by its beginning, and how it names its fields. Empty if there is none in time.
+  // The next entry whose message begins with `message`, with all its fields; empty if none arrives in time.
   std::string Entry(const std::string& message) const {
     std::string entry(4096, '\0');
-    const auto end = steady_clock::now() + 10s;  // other lines may come for ever
+    const auto end = steady_clock::now() + 10s;  // other lines may keep coming
     while (steady_clock::now() < end && can::WaitReadable(journal_, 2s)) {
       const ssize_t size = ::recv(journal_, entry.data(), entry.size(), 0);
       std::string text = entry.substr(0, static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
@@ -184,7 +184,7 @@ TEST_F(DaemonWithJournal, ChangesOfModeAndFaultsHaveFieldsAndNoLineIsThereTwice)
 
 TEST_F(DaemonWithJournal, JournalThatStallsDoesNotStallTheDaemon) {
   Engage();
-  for (int i = 0; i < 700; ++i) {  // more than its queue holds, 512 where systemd has raised it
+  for (int i = 0; i < 700; ++i) {  // more than its queue holds: 512 where systemd has raised the limit
     daemon_->Signal(SIGUSR1);
     if (i % 10 == 0) {
       ASSERT_TRUE(bus::Drives(Period().steering.mode)) << i;

@@ -29,7 +29,7 @@ TEST_F(DaemonVcan, CommandsNothingUntilTheDriverAsksAndThenAnswersEveryState) {
     const CommandPair pair = Period();
     EXPECT_EQ(pair.steering.mode, bus::Mode::kActive);
     EXPECT_EQ(pair.steering.plan_age, 0);
-    // The vehicle is where it shall be.
+    // The vehicle is on its reference.
     EXPECT_NEAR(pair.steering.delta, 0.0, 0.01);
     EXPECT_NEAR(pair.acceleration.acceleration, 0.0, 0.1);
   }
@@ -81,7 +81,7 @@ TEST_F(DaemonVcan, StaleStateIsBridgedByThePlanAndThenEndsInAControlledStop) {
   EXPECT_NEAR(last->acceleration.acceleration, -3.0, 0.01);
   EXPECT_EQ(Fault(), bus::FaultCode::kStateStale);
 
-  // The vehicle comes back, standing.
+  // The state returns, with the vehicle at standstill.
   vehicle_.motion.upsilon = 0.0;
   const CommandPair pair = Period();
   EXPECT_EQ(pair.steering.mode, bus::Mode::kStandby);
@@ -135,7 +135,7 @@ TEST_F(DaemonVcan, KilledAndRestartedItCommandsNothingByItself) {
   CommandPair pair = Period();
   EXPECT_EQ(pair.steering.mode, bus::Mode::kInit);
   for (int i = 0; i < 20; ++i) {
-    pair = Period();  // engage is held
+    pair = Period();  // engage is still requested
     EXPECT_FALSE(pair.steering.enable);
   }
   EXPECT_EQ(pair.steering.mode, bus::Mode::kStandby);
@@ -145,7 +145,7 @@ TEST_F(DaemonVcan, KilledAndRestartedItCommandsNothingByItself) {
 TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
   StartDaemon();
   Engage();
-  // The vehicle goes on, since taking an interface down may take the kernel seconds.
+  // The vehicle keeps moving, since the kernel may need seconds to take an interface down.
   const auto down = std::async(std::launch::async, [this] { Ip({"set", interface_, "down"}); });
   while (down.wait_for(50ms) != std::future_status::ready) {
     vehicle_.pose.X += 0.5;
@@ -159,7 +159,7 @@ TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
   EXPECT_TRUE(LogSays(interface_ + " is up"));
   Forget();
 
-  // It goes on braking until the vehicle stands, then it waits for a new request.
+  // The daemon keeps braking until the vehicle stands, then waits for a new request.
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(Period().steering.mode, bus::Mode::kSafeStop);
   }
@@ -170,11 +170,11 @@ TEST_F(DaemonVcan, InterfaceDownAndUpIsSurvivedWithoutCommandingByItself) {
   Engage();
 }
 
-// The states that came in a pause, and the answers to them: commands that came late would be worse than none.
+// States received during a pause are not answered, except the newest: late commands would be worse than none.
 TEST_F(DaemonVcan, AfterAPauseOnlyTheNewestStateIsAnswered) {
   StartDaemon();
   Engage();
-  // Twelve states of a counter modulo 15: from the first and the last alone their number could not be told.
+  // Twelve states of a modulo-15 counter: the first and the last alone would not determine their number.
   for (const int states : {6, 12}) {
     daemon_->Signal(SIGSTOP);
     Forget();
@@ -194,7 +194,7 @@ TEST_F(DaemonVcan, AfterAPauseOnlyTheNewestStateIsAnswered) {
       EXPECT_EQ(later->steering.state_counter, 15) << "one answer is enough";
       if (later->steering.plan_age >= 2) break;
     }
-    // The place on the route is right: where the vehicle is, nothing has to be caught up.
+    // The place on the route is right: the vehicle has nothing to catch up.
     EXPECT_NEAR(Period().acceleration.acceleration, 0.0, 0.3);
   }
 }
@@ -216,7 +216,7 @@ TEST_F(DaemonVcan, StoppedForLongAndContinuedItCommandsNothing) {
   StartDaemon();
   Engage();
   daemon_->Signal(SIGSTOP);
-  for (int i = 0; i < 3; ++i) {  // what the vehicle tells in the meantime waits in the daemon's queue
+  for (int i = 0; i < 3; ++i) {  // frames sent in the meantime wait in the daemon's queue
     Put(vehicle_.All());
     std::this_thread::sleep_for(1s);
   }
@@ -224,7 +224,7 @@ TEST_F(DaemonVcan, StoppedForLongAndContinuedItCommandsNothing) {
   daemon_->Signal(SIGCONT);
   while (const auto pair = NextPair(300ms)) {
     EXPECT_FALSE(pair->steering.enable);
-    if (pair->steering.state_counter == 15) break;  // the timer's: the queue is empty
+    if (pair->steering.state_counter == 15) break;  // sent by the timer: the queue is empty
   }
   for (int i = 0; i < 5; ++i) {
     EXPECT_FALSE(Period().steering.enable);
@@ -234,12 +234,12 @@ TEST_F(DaemonVcan, StoppedForLongAndContinuedItCommandsNothing) {
 }
 
 TEST_F(DaemonVcan, ReaderOfTheLogThatGoesAwayDoesNotEndTheDaemon) {
-  // `exec`, so that the process is the daemon itself; of its log only the first line is read.
+  // `exec` makes the process the daemon itself; only the first line of its log is read.
   const std::string command = "mkfifo log && { head -n 1 log & } && exec \"$0\" \"$@\" 2> log";
   daemon_.emplace(std::vector<std::string>{"sh", "-c", "cd " + folder_.path().string() + " && " + command,
                                            LPVMPCD, "--config", "daemon.toml", "--interface", interface_});
   ASSERT_TRUE(test_support::WaitUntil([&] { return !daemon_->Stdout().empty(); }));
-  Engage();  // which it logs, twice
+  Engage();  // logged in two lines
   EXPECT_TRUE(Period().steering.enable);
   daemon_->Signal(SIGTERM);
   EXPECT_EQ(daemon_->Wait(5s), 0);
@@ -264,7 +264,7 @@ TEST_F(DaemonVcan, SigtermAndSigintSendALastPairThatIsNotEnabled) {
   }
 }
 
-// An interface of its own, since it is deleted.
+// Uses a separate interface, which is deleted.
 class DaemonOnPassingInterface : public DaemonOnBus {
  protected:
   DaemonOnPassingInterface() : DaemonOnBus("vcan9") {}

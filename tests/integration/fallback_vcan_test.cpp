@@ -1,5 +1,5 @@
-// A daemon whose controller fails in the middle of a curve, and the simulated vehicle, on a real interface: what the
-// commands do from then on, and where the vehicle ends.
+// A daemon whose controller fails in the middle of a curve, with the simulated vehicle on a real interface: the
+// commands from the failure on, and the vehicle's margin to the road's edge.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -26,27 +26,27 @@ using namespace std::chrono_literals;
 constexpr double kRadius = 60.0;
 constexpr double kWheelbase = 2.44;
 constexpr int kHorizon = 8;
-// 10 s on: the vehicle is in the curve, engaged by then.
+// The arc begins after 70 m; the vehicle is engaged and on it when the controller fails.
 constexpr const char* kRoute =
     "[route]\nstart = {X = 0.0, Y = 0.0, psi = 0.0}\nspeed = 12.0\npieces = [\n"
     "  {kind = \"straight\", length = 40.0},\n"
     "  {kind = \"clothoid\", length = 30.0, curvature_from = 0.0, curvature_to = 0.0166666666666667},\n"
     "  {kind = \"arc\", length = 220.0, radius = 60.0, turn = \"left\"},\n]\n[road]\nleft = 4.0\nright = "
     "4.0\n";
-constexpr int kFirst = 140;  // step of the controller that fails first
+constexpr int kFirst = 140;  // first step of the controller that fails
 
-// A cycle as the bus told it.
+// A cycle as seen on the bus.
 struct Cycle {
   bus::SteeringCommand steering;
   bus::AccelerationCommand acceleration;
   bus::ControllerStatus status;
   bus::ControllerDiagnostics diagnostics;
-  double speed = 0.0;  // told last before it
+  double speed = 0.0;  // last speed reported before it [m/s]
 };
 
 class FallbackInACurve : public testing::Test {
  protected:
-  // Drives with `fault` (KIND COUNT) and reads the log.
+  // Drives with `count` faults of `kind` from step kFirst on and reads the log.
   void Drive(const std::string& kind, int count, bool realtime) {
     const std::filesystem::path bin = folder_ / "bin";
     std::filesystem::create_directory(bin);
@@ -105,8 +105,8 @@ class FallbackInACurve : public testing::Test {
     return static_cast<std::size_t>(found - cycles_.begin());
   }
 
-  // From `begin` on, as long as commands are enabled and the vehicle rolls: steering goes with the curve, without a
-  // jump and never back to straight on.
+  // Expects that from `begin` on, while commands are enabled and the vehicle rolls, steering follows the curve without
+  // a jump and never returns to straight on.
   void ExpectSteeringHeldToTheCurve(std::size_t begin) const {
     const double least = 0.5 * kWheelbase / kRadius;
     for (std::size_t i = begin; i < cycles_.size() && cycles_[i].steering.enable && cycles_[i].speed > 1.0;
@@ -118,7 +118,7 @@ class FallbackInACurve : public testing::Test {
     }
   }
 
-  // The drive that failed for good: Degraded along the rest of the last plan, then a stop along the path.
+  // Expects of a permanent failure: Degraded along the rest of the last plan, then a stop along the path.
   void ExpectBridgedAndStopped(bus::ModeCause cause, bus::FaultCode fault) {
     const std::size_t degraded = First(bus::Mode::kDegraded);
     const std::size_t stop = First(bus::Mode::kSafeStop);

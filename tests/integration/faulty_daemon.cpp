@@ -1,9 +1,9 @@
-// lpvmpcd whose controller fails as the environment tells: the real service and loop on a real bus, for tests.
+// lpvmpcd whose controller fails as specified in the environment: the real service and loop on a real bus, for tests.
 //
-//   LPVMPC_TEST_FAULT="KIND FIRST COUNT"    steps FIRST .. FIRST + COUNT − 1 of the controller, from 1, are
-//     unsolved    infeasible, the solver says
+//   LPVMPC_TEST_FAULT="KIND FIRST COUNT"    steps FIRST .. FIRST + COUNT − 1 of the controller, counted from 1, are
+//     unsolved    reported as infeasible by the solver
 //     rejected    solved, but with a NaN in the plan
-//     late        made 70 ms too slowly
+//     late        delayed by 70 ms
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -63,7 +63,7 @@ Fault FaultFromEnvironment() {
 
 }  // namespace
 
-// As scripts/drive calls it: --config FILE --interface IF [--lockstep]
+// Arguments as passed by scripts/drive: --config FILE --interface IF [--lockstep]
 int main(int argc, char** argv) {
   try {
     if (argc < 5) throw std::runtime_error("too few arguments");

@@ -23,7 +23,7 @@ class ConfigTest : public testing::Test {
     return folder_ / name;
   }
   Config Load(const std::string& text) const { return LoadConfig(Write("daemon.toml", text)); }
-  // The error of a configuration that must be refused.
+  // The error text of a configuration that must be rejected.
   std::string Error(const std::string& text) const {
     try {
       static_cast<void>(Load(text));
@@ -111,7 +111,7 @@ TEST_F(ConfigTest, DefaultsOfTheSettingsAreThoseOfAFileThatGivesNone) {
   EXPECT_EQ(file.log_level, settings.log_level);
 }
 
-// What a controller, the loop or the service takes when it is given nothing, where the configuration sets it.
+// Defaults of the controllers, the loop and the service, as far as the configuration sets these values.
 TEST(Config, DefaultsOfEachRoomAreThoseOfTheConfiguration) {
   const Config config;
   const LoopSettings loop;
@@ -233,7 +233,7 @@ TEST_F(ConfigTest, WrongValueNamesFileLineKeyValueAndWhatIsAllowed) {
 TEST_F(ConfigTest, ValuesThatContradictEachOtherAreRefused) {
   EXPECT_THAT(Error(kRoute + "[cycle]\ntimeout = 0.01\n"), HasSubstr("timeout"));
   EXPECT_THAT(Error(kRoute + "[controller]\nz_max = [0, 0, 0, 0, 0, 0]\n"), HasSubstr("z_max"));
-  // A stop that the limiter would not let happen; both keys decide, either may be the one that is written.
+  // A stop that the limiter would not permit: both keys matter, and either may be the one in the file.
   EXPECT_THAT(Error(kRoute + "[safe_stop]\ndeceleration = 7\n"), HasSubstr("deceleration"));
   EXPECT_THAT(Error(kRoute + "[limits]\nmin_acceleration = -2\n"),
               testing::AllOf(HasSubstr("safe_stop.deceleration"), HasSubstr("limits.min_acceleration")));

@@ -1,4 +1,4 @@
-// The control loop as it is with lpv-affine: by progress, with a plan check and a delay from a command to its effect.
+// The control loop as configured for lpv-affine: by progress, with a plan check and a delay between command and effect.
 #include <gtest/gtest.h>
 
 #include "loop/control_loop.hpp"
@@ -13,7 +13,7 @@ using control::ConstraintKind;
 
 constexpr double kPeriod = 0.05, kSpeed = 10.0;
 constexpr control::RoadBounds kRoad{.left = 4.0, .right = -4.0};
-// From the vehicle to the middle of an obstacle of 1 m radius whose edge its front reaches in the third step.
+// Distance from the vehicle to the centre of an obstacle of radius 1 m whose edge its front reaches in step 3 [m].
 constexpr double kThirdStep = 1.95 + 1.0 + 2.5 * kPeriod * kSpeed;
 
 LoopSettings Settings(base::Time command_delay) {
@@ -57,11 +57,11 @@ class DrivingLoopTest : public testing::Test {
     vehicle_.request.engage = true;
     return Period();
   }
-  // Before the vehicle as it will be in the next period.
+  // Puts an obstacle `ahead` [m] of the vehicle's position in the next period.
   void PutObstacle(double ahead) {
     vehicle_.obstacles = {{.object_id = 3, .X = vehicle_.pose.X + kPeriod * kSpeed + ahead, .Y = 0.0}};
   }
-  // The next plans go straight on.
+  // Makes the next plans go straight on.
   void PlanStraight() { controller_.Plan({0.0, 0.0}); }
 
   bus::VehicleBus bus_;
@@ -129,7 +129,7 @@ TEST_F(DrivingLoopTest, LesserEvilIsFollowedAndToldOf) {
   PlanStraight();
   Engage();
   PutObstacle(kThirdStep);
-  controller_.Plan({0.0, -1.0});  // touches it too, but knows of it
+  controller_.Plan({0.0, -1.0});  // touches it too, but no earlier than the active plan
   const Sent sent = Period();
   EXPECT_EQ(sent.steering.mode, bus::Mode::kActive);
   EXPECT_EQ(sent.steering.plan_age, 0);
@@ -152,7 +152,7 @@ TEST_F(DrivingLoopTest, DriveEndsWhereTheRouteDoesWithTheVehicleAtRest) {
   vehicle_.pose.X = 90.0;
   Engage();
   while (vehicle_.pose.X < 99.0) EXPECT_EQ(Period().steering.mode, bus::Mode::kActive) << vehicle_.pose.X;
-  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);  // there, but not at rest
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);  // at the end, but not at rest
   vehicle_.motion.upsilon = 0.0;
   EXPECT_NE(Period().steering.mode, bus::Mode::kActive);
   EXPECT_EQ(loop_.report().cause, safety::Cause::kRouteEnd);
@@ -167,7 +167,7 @@ TEST_F(DelayedLoopTest, PlanBeginsWhereTheCommandActs) {
   PlanStraight();
   ASSERT_EQ(Engage().steering.mode, bus::Mode::kActive);
   EXPECT_NEAR(controller_.z[control::kX], vehicle_.pose.X + 0.06 * kSpeed, 2e-3);
-  // What was commanded meanwhile is reckoned with.
+  // Commands that have not acted yet are taken into account.
   controller_.Plan({0.0, -0.5});
   for (int i = 0; i < 5; ++i) Period();
   EXPECT_NEAR(controller_.z[control::kUpsilon], kSpeed - 0.06 * 0.5, 1e-3);

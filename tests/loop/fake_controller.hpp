@@ -1,4 +1,4 @@
-// A controller that does as a test says, and the road that it drives on.
+// A controller scripted by a test, and the road that it drives on.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace loop {
 
-// Answers as it is told to. Its plan's inputs are recognisable: δ_i = 0.01 (i + 1), a_i = −0.1 (i + 1).
+// Answers as set by its members. The inputs of its plan are recognisable: δ_i = 0.01 (i + 1), a_i = −0.1 (i + 1).
 class FakeController : public control::TrackingController {
  public:
   static constexpr int kHorizon = 4;
@@ -21,7 +21,7 @@ class FakeController : public control::TrackingController {
       plan_.u.emplace_back(0.01 * (i + 1), -0.1 * (i + 1));
     }
   }
-  void Plan(const control::Input& u) { std::ranges::fill(plan_.u, u); }  // from now on, this in every step
+  void Plan(const control::Input& u) { std::ranges::fill(plan_.u, u); }  // from now on, `u` in every step
   int horizon() const override { return kHorizon; }
   const control::Plan& Step(const control::TrackingInput& input) override {
     ++steps;
@@ -40,7 +40,7 @@ class FakeController : public control::TrackingController {
 
   control::SolverStatus status = control::SolverStatus::kSolved;
   bool poison = false;
-  bool poison_input = false;  // the last one
+  bool poison_input = false;  // puts a NaN into the last input
   int steps = 0;
   int resets = 0;
   control::State z;
@@ -53,7 +53,7 @@ class FakeController : public control::TrackingController {
   control::Plan plan_;
 };
 
-// The controller as another owner than itself has it.
+// Forwards to a controller that the test owns.
 class Forwarding : public control::TrackingController {
  public:
   explicit Forwarding(control::TrackingController& controller) : controller_(&controller) {}
@@ -90,7 +90,7 @@ class ProgressController : public control::Controller {
   const control::TimeReference* reference_;
 };
 
-// 10 m/s along X.
+// A straight path along X at 10 m/s.
 inline std::vector<Eigen::Vector2d> StraightRoute() {
   std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < 200; ++i) {

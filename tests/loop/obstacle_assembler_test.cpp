@@ -56,7 +56,7 @@ TEST(ObstacleAssembler, ListThatDoesNotFitLeavesTheOldObstacles) {
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // shape and motion missing
   Tell(assembler, 1, 14.0);
   assembler.Update(bus::ObstaclePosition{.object_id = 3});
-  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // an unfinished one beside
+  EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // an incomplete one as well
 
   ASSERT_EQ(assembler.obstacles().size(), 1U);
   EXPECT_EQ(assembler.obstacles()[0].X, 10.0);
@@ -64,7 +64,7 @@ TEST(ObstacleAssembler, ListThatDoesNotFitLeavesTheOldObstacles) {
   EXPECT_EQ(assembler.Age(2s), 1s);
 
   Tell(assembler, 1, 15.0);
-  EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 1}, 3s));  // nothing is left of them
+  EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 1}, 3s));  // nothing is left of the rejected ones
   EXPECT_EQ(assembler.obstacles()[0].X, 15.0);
 }
 

@@ -19,7 +19,7 @@ TEST(StateAssembler, SetIsCompleteWithItsThirdFrameInAnyOrder) {
   const VehicleState& state = assembler.state();
   EXPECT_TRUE(state.complete);
   EXPECT_EQ(state.counter, 4);
-  EXPECT_EQ(state.timestamp, 10ms);  // of the oldest frame
+  EXPECT_EQ(state.timestamp, 10ms);  // that of the oldest frame
   control::State z;
   z << 1.0, 2.0, 3.0, 4.0, 0.5, 5.0;
   EXPECT_EQ(state.z, z);
@@ -50,7 +50,7 @@ TEST(StateAssembler, SamePartTwiceBeginsANewSet) {
 
 TEST(StateAssembler, PartFromTheRoundBeforeMakesNoSetWithPartsOfThisRound) {
   StateAssembler assembler(50ms);
-  EXPECT_FALSE(assembler.Update(bus::VehiclePose{.X = 1.0}, 4, 0ms));  // the rest of fifteen sets is lost
+  EXPECT_FALSE(assembler.Update(bus::VehiclePose{.X = 1.0}, 4, 0ms));  // the rest of 15 sets is lost
   EXPECT_FALSE(assembler.Update(bus::VehicleMotion{}, 4, 750ms));
   EXPECT_FALSE(assembler.Update(bus::VehicleFeedback{}, 4, 750ms));
   EXPECT_TRUE(assembler.Update(bus::VehiclePose{.X = 2.0}, 4, 750ms));

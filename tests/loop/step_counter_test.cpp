@@ -35,7 +35,7 @@ TEST_F(StepCounterTest, MissingStatesAreStepsToo) {
   EXPECT_EQ(State(109), 109);
 }
 
-// However many states are missing: the timer may be wrong by up to seven.
+// Whatever the number of missing states, the timer's count may be wrong by up to seven.
 TEST_F(StepCounterTest, TheTimersCountNeedsOnlyBeRoughlyRight) {
   for (int missing = 1; missing < 100; ++missing) {
     for (int error = -7; error <= 7; ++error) {

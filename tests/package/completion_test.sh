@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What bash completes. usage: completion_test.sh COMPLETION FOLDER_OF_PROGRAMS [interfaces]
-# With `interfaces`: the names of interfaces alone, where there are vcan0 and vcan1.
+# Tests the completions in bash. usage: completion_test.sh COMPLETION FOLDER_OF_PROGRAMS [interfaces]
+# With `interfaces` only the names of interfaces are tested, where vcan0 and vcan1 exist.
 set -u
 export PATH=$2:$PATH
 # shellcheck disable=SC1091 # Debian's
@@ -28,7 +28,7 @@ Completes() { # Completes WANTED WORD...: the last word is the one at the cursor
   fi
 }
 
-if [ "${3:-}" = interfaces ]; then # a process costs much where vcan0 and vcan1 are
+if [ "${3:-}" = interfaces ]; then # processes are slow where vcan0 and vcan1 exist
   Completes 'vcan0 vcan1' lpvmpcd --interface ''
   Completes 'vcan1' lpvmpc-sim --interface vcan1
   exit $((failures > 0))

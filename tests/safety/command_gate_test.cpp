@@ -25,7 +25,7 @@ class CommandGateTest : public testing::Test {
     const auto limited = limiter_.Limit({0.125, -1.0}, {0.125, -1.0}, 0);
     return gate_.Encode(*limited.command, answer, frames_);
   }
-  // A frame of each message that the gate makes, in the order of a cycle.
+  // One frame of each message that the gate encodes, in the order of a cycle.
   std::vector<can::Frame> OneOfEach() {
     EXPECT_TRUE(Encode({.mode = bus::Mode::kActive}));
     std::vector<can::Frame> frames(frames_.begin(), frames_.end());

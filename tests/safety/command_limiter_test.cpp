@@ -29,7 +29,7 @@ TEST(CommandLimiter, LimitsAreThoseOfThePaper) {
   EXPECT_EQ(limits.max_acceleration_step, 1.5);
 }
 
-// What is limited, and to which value; all else passes.
+// The limited command, and the limits that act; all others do not.
 struct Limited {
   control::Input wanted;
   control::Input applied;

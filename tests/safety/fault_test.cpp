@@ -39,7 +39,7 @@ TEST(Fault, OnlyWhatCannotBeDoneWithoutIsHard) {
 }
 
 TEST(Fault, ACauseAndItsCodeReadAlike) {
-  // One code for several causes.
+  // Causes that share their code with others.
   const std::set<Cause> other{Cause::kSilent, Cause::kSolverFailed};
   for (int i = 0; i < kCauses; ++i) {
     const auto cause = static_cast<Cause>(i);

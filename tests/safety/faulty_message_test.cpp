@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 class FaultyMessageTest : public testing::Test {
  protected:
-  // All messages but the one with this id; with an id of 0 all.
+  // Receives all messages except the one with `id`; all if `id` is 0.
   void ReceiveAllBut(std::uint32_t id) {
     vehicle_.obstacles = {{.object_id = 1, .X = 50.0}};
     for (const can::Frame& frame : vehicle_.All()) {

@@ -27,7 +27,7 @@ class MessageMonitorTest : public testing::Test {
   can::Frame Pose(std::uint8_t counter) const {
     return bus::MakeFrame(bus_, bus::VehiclePose{.X = 1.0}, counter);
   }
-  // A frame of each message, in the order of RxMessage.
+  // One frame of each message, in the order of RxMessage.
   std::vector<can::Frame> OneOfEach(std::uint8_t counter) const {
     return {Pose(counter),
             bus::MakeFrame(bus_, bus::VehicleMotion{}, counter),
@@ -36,7 +36,7 @@ class MessageMonitorTest : public testing::Test {
             bus::MakeFrame(bus_, bus::ObstacleList{}, counter),
             bus::MakeFrame(bus_, bus::DriverRequest{}, counter)};
   }
-  // The frame with raw bits in one of its signals and a CRC that is right.
+  // `frame` with raw bits in one of its signals and a correct CRC.
   can::Frame With(can::Frame frame, const char* signal, std::uint64_t raw) const {
     const bus::MessageInfo& info = *bus_.Find(frame.id);
     const std::span payload(frame.data.data(), frame.length);
@@ -47,7 +47,7 @@ class MessageMonitorTest : public testing::Test {
   bool Accepts(const can::Frame& frame) {
     return std::holds_alternative<Accepted>(monitor_.Check(frame, now_));
   }
-  // The fault of a frame that must be refused, and that must be counted.
+  // The fault of a frame that must be rejected; expects that this fault alone is counted.
   RxFault Refused(const can::Frame& frame) {
     std::array<std::uint64_t, kRxFaults> before{};
     for (std::size_t i = 0; i < kRxFaults; ++i) before[i] = monitor_.count(static_cast<RxFault>(i));
@@ -339,7 +339,7 @@ TEST_F(MessageMonitorTest, OtherSettingsHoldFromThenOnAndForgetNothing) {
   monitor_.Reconfigure({.stale_periods = 5.0, .max_lost = 0});
   EXPECT_TRUE(monitor_.Fresh(RxMessage::kPose, now_ + 250ms));
   EXPECT_FALSE(monitor_.Fresh(RxMessage::kPose, now_ + 250ms + 1ns));
-  EXPECT_FALSE(Accepts(Pose(5)));  // one lost, and none may be
+  EXPECT_FALSE(Accepts(Pose(5)));  // one is lost, and none is allowed
 }
 
 }  // namespace

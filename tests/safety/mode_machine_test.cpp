@@ -10,7 +10,7 @@
 namespace safety {
 namespace {
 
-// Everything well, engaged for some time.
+// Inputs without any fault, with engage requested.
 ModeInputs Well() {
   return {.bus_up = true,
           .state_new = true,
@@ -24,7 +24,7 @@ ModeInputs Well() {
           .route_left = 100};
 }
 
-// Degraded for some time, with some to go.
+// A state in `mode`, healthy for long enough and with five cycles left for Degraded.
 ModeState In(bus::Mode mode, bool armed = false) {
   return {.mode = mode,
           .cause = Cause::kStart,
@@ -36,7 +36,7 @@ ModeState In(bus::Mode mode, bool armed = false) {
 struct Row {
   std::string event;
   std::function<void(ModeInputs&)> happens;
-  // Mode after one cycle, and the cause if it is another one; by mode before.
+  // Mode after one cycle, and the cause if the mode changes; one member per mode before.
   struct To {
     bus::Mode mode;
     Cause cause = Cause::kStart;
@@ -68,7 +68,7 @@ Row::To Gives(Cause cause) {
   return {bus::Mode::kFault, cause};
 }
 
-// Standby is not armed here: edges have their own tests. A row a event, a column a mode.
+// One row per event, one column per mode. Standby is not armed here: edges have their own tests.
 const std::vector<Row> kTable = {
     // clang-format off
     {"nothing", [](ModeInputs&) {},
@@ -120,7 +120,7 @@ const std::vector<Row> kTable = {
      kComesUp, kStaysInStandby, kStaysInActive, kGoesOn, kStaysInSafeStop, kStaysInFault},
     {"internal error", [](ModeInputs& i) { i.internal_error = true; },
      kFails, kFails, kFails, kFails, kFails, kStaysInFault},
-    // An override wins over whatever comes with it.
+    // An override takes precedence over all other events.
     {"brake, and all else fails",
      [](ModeInputs& i) { i = {.override_seen = true, .plan_fault = Cause::kStateLate, .silent = true}; },
      kStaysInInit, kStaysInStandby, kYields, kYields, kYields, kStaysInFault},
@@ -156,7 +156,7 @@ TEST(ModeMachine, DegradedCountsDownToAStop) {
     EXPECT_EQ(state.degraded_left, left);
   }
   inputs.obstacles_fresh = true;
-  inputs.plan_fault = Cause::kDeadlineMissed;  // something else is missing now; the count goes on
+  inputs.plan_fault = Cause::kDeadlineMissed;  // another fault now; the count goes on
   state = Next(state, inputs, settings);
   EXPECT_EQ(state.mode, bus::Mode::kSafeStop);
   EXPECT_EQ(state.cause, Cause::kDeadlineMissed);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What scripts/with-systemd promises. usage: with_systemd_test.sh PATH_OF_WITH_SYSTEMD
+# Tests the promises of scripts/with-systemd. usage: with_systemd_test.sh PATH_OF_WITH_SYSTEMD
 set -u
 with_systemd=$1
 work=$(mktemp -d /tmp/with_systemd_test.XXXXXX)

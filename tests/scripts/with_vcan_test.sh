@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What scripts/with-vcan promises. usage: with_vcan_test.sh PATH_OF_WITH_VCAN
+# Tests the promises of scripts/with-vcan. usage: with_vcan_test.sh PATH_OF_WITH_VCAN
 set -u
 with_vcan=$1
 work=$(mktemp -d /tmp/with_vcan_test.XXXXXX)
@@ -13,17 +13,17 @@ Expect() { # Expect WHAT WANTED GOT
   fi
 }
 
-# True if no process carries the text in its command line (this script's own ones do not).
+# True if no process has the text in its command line (those of this script do not).
 NoneRuns() {
   ! pgrep -f -- "$1" >/dev/null
 }
 
-# The temporary folder of the wrapper that booted the kernel with this command line; none for our own kernel.
+# Prints the temporary folder of the wrapper that booted the kernel whose command line is in FILE; nothing for our own.
 GuestFolder() { # GuestFolder FILE
   [ "$(<"$1")" = "$(</proc/cmdline)" ] || sed -n 's,.* init=\([^ ]*\)/init .*,\1,p' "$1"
 }
 
-WaitFor() { # WaitFor COMMAND...: until it succeeds, at most 30 s
+WaitFor() { # WaitFor COMMAND...: repeats COMMAND until it succeeds, for at most 30 s
   local i
   for ((i = 0; i < 300; i++)); do
     "$@" && return
@@ -33,7 +33,7 @@ WaitFor() { # WaitFor COMMAND...: until it succeeds, at most 30 s
   exit 1
 }
 
-# --- One run that carries everything over: arguments, environment, folder, output, status.
+# --- One run that passes everything through: arguments, environment, folder, output, status.
 # shellcheck disable=SC2016,SC1003 # meant literally
 arguments=('' 'two words' $'new\nline' "'single' \"double\"" '$HOME `id`' '\' -t '*' $'\xc3\xa9 \xff' 'a=b')
 cat >"$work/show.sh" <<'SHOW'
@@ -95,7 +95,7 @@ Expect 'time limit of a command that ignores SIGTERM' 124 $?
 wait "$killed"
 Expect 'death by SIGSEGV' 139 $?
 
-# --- Signals to the wrapper end all. In the end nothing of it may run.
+# --- Signals to the wrapper end all its processes; none may be left.
 for signal in TERM KILL; do
   "$with_vcan" -- sh -c "cat /proc/cmdline >'$work/ready.$signal'; sleep 73.5" 2>/dev/null &
   wrapper=$!
@@ -110,7 +110,7 @@ for signal in TERM KILL; do
   if [ "$signal" = TERM ] && [ -n "$folder" ]; then
     Expect 'no folder is left' no "$([ -e "$folder" ] && echo yes || echo no)"
   fi
-  [ -z "$folder" ] || rm -rf "$folder" # only SIGKILL leaves it
+  [ -z "$folder" ] || rm -rf "$folder" # left only after SIGKILL
 done
 
 # --- Mistakes

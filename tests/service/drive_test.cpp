@@ -1,4 +1,4 @@
-// lpvmpcd@.service with the vehicle of lpvmpc-sim@.service: the demonstration, and what happens when a drive is broken off.
+// lpvmpcd@.service with the vehicle of lpvmpc-sim@.service: the demonstration, and drives that are broken off.
 #include <algorithm>
 #include <csignal>
 #include <gmock/gmock.h>
@@ -19,8 +19,8 @@ using testing::StartsWith;
 
 class Drive : public Service {
  protected:
-  // Sends `signal` to the daemon, which systemd then starts again. True if no command of a time after the signal is
-  // enabled until it stands by, and for a while after it.
+  // Sends `signal` to the daemon, which systemd then restarts. Expects that no command after the signal is enabled
+  // until the daemon is in Standby and for 1 s after.
   static void BreakOff(BusWatch& bus, int signal) {
     const long restarts = Number(kDaemon, "NRestarts");
     const long pid = Number(kDaemon, "MainPID");
@@ -48,19 +48,19 @@ TEST_F(Drive, DemonstrationMeetsItsExpectationsWithLittleMemory) {
   EXPECT_TRUE(Eventually([] { return Property(kDaemon, "StatusText").starts_with("Active; no fault; "); }));
   const auto begin = steady_clock::now();
   const long used = Number(kDaemon, "CPUUsageNSec");
-  std::this_thread::sleep_for(50s);  // of the drive's 60
+  std::this_thread::sleep_for(50s);  // the drive takes 60 s
   const double percent = 100.0 * static_cast<double>(Number(kDaemon, "CPUUsageNSec") - used) /
                          std::chrono::duration<double, std::nano>(steady_clock::now() - begin).count();
-  ASSERT_TRUE(Becomes(kVehicle, "inactive"));  // it has ended by itself
+  ASSERT_TRUE(Becomes(kVehicle, "inactive"));  // the drive has ended by itself
   EXPECT_EQ(Property(kVehicle, "Result"), "success") << Journal(kVehicle);
   EXPECT_EQ(Property(kDaemon, "NRestarts"), "0");
 
-  // The kernel of User-Mode Linux counts by its tick of 10 ms and takes 100 times what a processor's own takes for a
-  // system call, so the share of the processor is a figure to look at and no limit. A cycle that the same tick starts is
-  // over before the next one: the share may be 0, and only the start is certain to have been counted.
+  // The kernel of User-Mode Linux counts by its tick of 10 ms, and a system call takes 100 times as long as on a native
+  // kernel, so the share of the processor is only printed and has no limit. A cycle that a tick starts is over before
+  // the next one: the share may be 0, and only the daemon's start is certain to have been counted.
   const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
   const double memory =
-      std::stod(test_support::KernelSays(pid, "VmHWM")) / 1024.0;  // the most that it had [MB]
+      std::stod(test_support::KernelSays(pid, "VmHWM")) / 1024.0;  // peak resident memory [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of this processor, " << memory
             << " MB\n";
   EXPECT_GT(used, 0);

@@ -15,7 +15,7 @@ constexpr const char* kPackagedConfiguration = "/tmp/lpvmpcd.toml";
 constexpr const char* kDemonstration = "/usr/share/lpvmpcd/scenarios/demo/scenario.toml";
 constexpr const char* kScenario = "/usr/share/lpvmpcd/scenarios/demo/service-test.toml";
 
-// The demonstration at 20 Hz on a machine that may be loaded: a cycle that comes late may find its problem infeasible.
+// Allows infeasible steps in the demonstration: on a loaded machine a late cycle may find its problem infeasible.
 void ChooseScenario() {
   std::ifstream file(kDemonstration);
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -26,7 +26,7 @@ void ChooseScenario() {
   std::ofstream("/etc/default/lpvmpc-sim") << "SCENARIO=" << kScenario << '\n';
 }
 
-std::string& Cursor() {  // of the journal, where the test began
+std::string& Cursor() {  // place in the journal at which the test began
   static std::string cursor;
   return cursor;
 }
@@ -101,7 +101,7 @@ can::Time Now() {
 }
 
 void Service::SetUpTestSuite() {
-  if (std::filesystem::exists(kPackagedConfiguration)) return;  // another suite has done it
+  if (std::filesystem::exists(kPackagedConfiguration)) return;  // done by another suite
   Do({"dpkg", "--install", LPVMPC_PACKAGE});
   EXPECT_EQ(test_support::Run({"systemctl", "is-enabled", kDaemon}).out, "disabled\n");
   EXPECT_EQ(Do({"systemctl", "list-units", "--all", "--plain", "--no-legend", "lpvmpc*"}), "");

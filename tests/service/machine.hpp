@@ -1,5 +1,5 @@
-// The machine that the tests of the service run on as root: its systemd is PID 1, the package gets installed, and
-// vcan0 comes and goes as a test wants it.
+// The machine on which the tests of the service run as root: its PID 1 is systemd, the package is installed, and the
+// tests create and delete vcan0.
 #pragma once
 
 #include <chrono>
@@ -20,11 +20,11 @@ inline constexpr const char* kDaemon = "lpvmpcd@vcan0.service";
 inline constexpr const char* kVehicle = "lpvmpc-sim@vcan0.service";
 inline constexpr const char* kConfiguration = "/etc/lpvmpcd/lpvmpcd.toml";
 
-// A step that takes a tenth of a second takes many on a machine that others load.
+// Time limit of one step: on a loaded machine a step of 0.1 s may take seconds.
 inline constexpr std::chrono::seconds kPatience{60};
 
-// Asks `condition` now and then until it is true, with patience. Not more often: asking systemd takes its time, and the
-// machine has one processor, on which a drive goes on.
+// Polls `condition` every 200 ms until it is true; false after kPatience. Polling systemd is slow, and the machine has
+// one processor, which the drive needs as well.
 template <typename Condition>
 [[nodiscard]] bool Eventually(Condition condition) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -35,21 +35,21 @@ template <typename Condition>
   return true;
 }
 
-// Runs `argv`, which has to succeed; its output.
+// Runs `argv`, which must succeed, and returns its output.
 std::string Do(const std::vector<std::string>& argv);
 
-// A property of a unit, as systemctl show prints it; of a number, its value.
+// A property of a unit as systemctl show prints it, and as a number.
 [[nodiscard]] std::string Property(const char* unit, const char* name);
 [[nodiscard]] long Number(const char* unit, const char* name);
 
-// All that the unit has said, and systemd of it, since the test began.
+// All lines of the unit, and of systemd about it, since the test began.
 [[nodiscard]] std::string Journal(const char* unit);
 
-// Waits, with patience; a failure says what was waited for.
+// Waits up to kPatience; a failure names the unit and what was expected of it.
 [[nodiscard]] testing::AssertionResult Becomes(const char* unit, std::string_view state);
 [[nodiscard]] testing::AssertionResult Says(const char* unit, std::string_view text);
 
-// What the controller sends, from the beginning of its scope on.
+// Records the controller's commands from its construction on.
 class BusWatch {
  public:
   struct Command {
@@ -60,7 +60,7 @@ class BusWatch {
 
   // All commands so far, steering and acceleration.
   const std::vector<Command>& Commands();
-  // True as soon as the newest command is of this mode.
+  // Waits until the newest command is in `mode`.
   [[nodiscard]] testing::AssertionResult Reaches(bus::Mode mode);
 
  private:
@@ -78,8 +78,8 @@ class BusWatch {
 // The wall clock, which stamps frames.
 [[nodiscard]] can::Time Now();
 
-// Installs the package, once. Every test begins without an interface, with the unit enabled for it and the packaged
-// configuration, but for messages that are stale later: a loaded machine may stop for some tenths of a second.
+// Installs the package once. Every test begins without an interface, with the unit enabled for it and the packaged
+// configuration, except that messages become stale later: a loaded machine may pause for some tenths of a second.
 class Service : public testing::Test {
  protected:
   static void SetUpTestSuite();
@@ -88,7 +88,7 @@ class Service : public testing::Test {
 
   static void CreateInterface();
   static void DeleteInterface();
-  // Creates the interface and waits for the daemon; the second has a vehicle drive, too, until the daemon commands it.
+  // StartDaemon creates the interface and waits for the daemon; Engage starts a vehicle and waits for Active.
   static void StartDaemon();
   static void Engage(BusWatch& bus);
 };

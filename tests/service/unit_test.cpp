@@ -31,7 +31,7 @@ TEST_F(Unit, FollowsAnInterfaceThatComesAndGoes) {
     DeleteInterface();
     ASSERT_TRUE(Becomes(kDaemon, "inactive"));
   }
-  EXPECT_EQ(Property(kDaemon, "StartLimitIntervalUSec"), "0");  // however often and fast
+  EXPECT_EQ(Property(kDaemon, "StartLimitIntervalUSec"), "0");  // no limit on the number of starts
 }
 
 TEST_F(Unit, LivesThroughALinkThatGoesDownAndUp) {

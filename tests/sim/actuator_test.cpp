@@ -29,7 +29,7 @@ TEST(Actuator, RateAndLagTogetherAreExactWhateverTheStep) {
   often.Command(2.0);
   once.Advance(0.5);
   for (int i = 0; i < 500; ++i) often.Advance(1e-3);
-  // At the rate until 0.5 is left after 0.3 s, then exponentially.
+  // Rate-limited until 0.5 is left after 0.3 s, then exponential.
   EXPECT_NEAR(once.value(), 2.0 - 0.5 * std::exp(-2.0), 1e-12);
   EXPECT_NEAR(often.value(), once.value(), 1e-12);
 }

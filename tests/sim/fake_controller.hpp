@@ -1,5 +1,4 @@
-// Stands in for the controller in tests: answers each state set, engages on a rising edge and keeps to the
-// route.
+// Stands in for the controller in tests: answers each state set, engages on a rising edge and follows the route.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,7 @@ class FakeController {
  public:
   FakeController(const bus::VehicleBus& bus, const control::Route& route) : bus_(&bus), route_(route) {}
 
-  // The answer, if `frame` completes a state set.
+  // The answer if `frame` completes a state set; otherwise empty.
   std::vector<can::Frame> Receive(const can::Frame& frame) {
     const auto message = bus_->Decode(frame.id, frame.Payload());
     if (!message) return {};
@@ -78,7 +77,7 @@ class FakeController {
   bus::Mode mode = bus::Mode::kStandby;
   bus::SolverStatus solver_status = bus::SolverStatus::kSolved;
   std::uint16_t deadline_misses = 0;
-  std::optional<bus::ConstraintReport> constraint;  // none: not told
+  std::optional<bus::ConstraintReport> constraint;  // no report is sent if empty
 
  private:
   const bus::VehicleBus* bus_;

@@ -43,7 +43,7 @@ Placed Anywhere(control::testing::Random& random) {
           .heading = random.Uniform(-3.0, 3.0)};
 }
 
-// Least distance of points all along the rectangle's edges.
+// Least distance of points sampled along the rectangle's edges.
 double LeastAlongEdges(const Placed& placed, int per_edge) {
   const auto corners = placed.footprint.Corners();
   double least = 1e9;
@@ -64,7 +64,7 @@ TEST(FootprintDistance, OutsideIsTheLeastDistanceOfThePointsOfTheRectangle) {
     const Placed placed = Anywhere(random);
     if (placed.Distance() < 0.05) continue;
     ++outside;
-    // Points h apart miss the least by h² / 8 over the distance, where the ellipse's edge is convex.
+    // Points h apart over-estimate the least distance d by at most h² / (8 d).
     const double least = LeastAlongEdges(placed, 4000);
     EXPECT_LE(placed.Distance(), least + 1e-9) << i;
     EXPECT_NEAR(placed.Distance(), least, 1e-5) << i;
@@ -82,7 +82,7 @@ TEST(FootprintDistance, IsNegativeExactlyWhereRectangleAndEllipseShareAPoint) {
     const bool covers_centre = centre.x() < placed.footprint.front && centre.x() > -placed.footprint.rear &&
                                std::abs(centre.y()) < placed.footprint.half_width;
     const double least = LeastAlongEdges(placed, 1000);
-    if (std::abs(least) < 1e-4) continue;  // a touch that the points may miss
+    if (std::abs(least) < 1e-4) continue;  // the points may miss a touch
     const bool contact = covers_centre || least < 0.0;
     contacts += static_cast<int>(contact);
     EXPECT_EQ(placed.Distance() < 0.0, contact) << i;
@@ -94,7 +94,7 @@ TEST(FootprintDistance, GoesThroughZeroWithoutAJumpWhenTheyMeet) {
   control::testing::Random random(3);
   for (int i = 0; i < 50; ++i) {
     Placed placed = Anywhere(random);
-    // Away from one another along a line until they part; then back to where they touch.
+    // Bisects along a line for the place at which the two just touch.
     const Vector2d away = Vector2d::UnitX();
     double low = 0.0, high = 20.0;
     const Vector2d start(placed.obstacle.X, placed.obstacle.Y);
@@ -112,12 +112,12 @@ TEST(FootprintDistance, GoesThroughZeroWithoutAJumpWhenTheyMeet) {
 
 TEST(FootprintDistance, KnownPlaces) {
   const Obstacle ellipse{.r_x = 2.0, .r_y = 1.0, .heading = std::numbers::pi / 2.0};
-  // Beside, before and behind a car that drives along x; the ellipse stands across.
+  // Places beside, ahead of and behind a car that drives along x; the ellipse is across the road.
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {0.5, 5.0}, 0.0), 5.0 - 0.9 - 2.0, 1e-12);
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {-10.0, 0.1}, 0.0), 10.0 - 1.95 - 1.0, 1e-12);
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {10.0, 0.1}, 0.0), 10.0 - 2.3 - 1.0, 1e-12);
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {-10.0, 0.1}, std::numbers::pi), 10.0 - 2.3 - 1.0, 1e-12);
-  // Overlapping at the front by 0.1 m, and on top of its centre.
+  // An overlap of 0.1 m at the front, and the car on top of the ellipse's centre.
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {-2.85, 0.0}, 0.0), -0.1, 1e-12);
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {0.0, 0.0}, 0.4), -1.0, 1e-12);
 }

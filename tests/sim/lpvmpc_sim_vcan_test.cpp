@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 const std::string kSim = LPVMPC_SIM;
 
-// Answers on vcan0 until it is destroyed; tells its status every 50 ms while nothing comes.
+// Answers on vcan0 until it is destroyed; sends its status every 50 ms while nothing arrives.
 class ControllerOnBus {
  public:
   explicit ControllerOnBus(const Scenario& scenario) : controller_(bus_, scenario.route), socket_("vcan0") {
@@ -35,7 +35,7 @@ class ControllerOnBus {
     stop_ = true;
     thread_.join();
   }
-  std::atomic<bool> mute = false;  // receives, but answers no more
+  std::atomic<bool> mute = false;  // receives, but no longer answers
   std::atomic<int> frames_sent = 0;
 
  private:
@@ -79,7 +79,7 @@ TEST_F(LpvmpcSim, LockStepDrivesToTheEndFasterThanRealTime) {
   const ControllerOnBus controller(*scenario_);
   const auto start = std::chrono::steady_clock::now();
   const Outcome outcome = test_support::Run(argv);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);  // of a drive of 13 s
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 10s);  // the drive lasts 13 s
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["completed"], true);

@@ -57,7 +57,7 @@ TEST(Plant, StraightLineStaysStraight) {
   }
 }
 
-// The parts that the bicycle leaves out are of second order in ν, ω, δ and a.
+// The terms that the bicycle model omits are of second order in ν, ω, δ and a.
 TEST(Plant, FlatWithLinearTyresIsTheBicycleForSmallAngles) {
   const PlantParameters parameters = Flat();
   const Plant plant(parameters, State::Zero());

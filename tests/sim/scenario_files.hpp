@@ -27,7 +27,7 @@ class ScenarioFiles {
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_.path() / name) << text;
   }
-  // `text` comes after the lines that name and route need.
+  // Loads a scenario whose file has `text` after the lines for name and route.
   [[nodiscard]] Scenario Load(const std::string& text) const {
     Write("scenario.toml", "name = \"test\"\nroute = \"route.toml\"\n" + text);
     return LoadScenario(folder_.path() / "scenario.toml");

@@ -72,7 +72,7 @@ TEST_F(SummaryTest, ClearanceIsTheDistanceToTheEdgeOfTheNearestObstacle) {
       "duration = 6.0\n[[obstacle]]\nid = 1\nX = 50\nY = 2\nr_x = 3\nr_y = 0.5\n"
       "[[obstacle]]\nid = 2\nX = 60\nY = -3\nr_x = 1\nr_y = 1\n[expect]\nmin_clearance_m = 1.6\n");
   ASSERT_TRUE(summary.min_clearance_m);
-  EXPECT_NEAR(*summary.min_clearance_m, 1.5, 0.02);  // between two samples
+  EXPECT_NEAR(*summary.min_clearance_m, 1.5, 0.02);  // the minimum is between two samples
   ASSERT_EQ(summary.failed_expectations.size(), 1u);
   EXPECT_THAT(summary.failed_expectations[0], HasSubstr("min_clearance_m = 1."));
 }
@@ -104,7 +104,7 @@ TEST_F(SummaryTest, ContactIsToldWithItsFirstStep) {
   const std::string drive = "duration = 6.0\n[[obstacle]]\nid = 1\nX = 49.9\nY = 0\nr_x = 1\nr_y = 1\n";
   const Summary point = Drive(drive), car = Drive(drive + kCar);
   ASSERT_TRUE(point.contact_step && car.contact_step);
-  // 1.95 m at 12 m/s are 3.25 cycles.
+  // 1.95 m at 12 m/s take 3.25 cycles.
   EXPECT_NEAR(static_cast<double>(*point.contact_step - *car.contact_step), 3.25, 1.0);
   // Engagement takes some cycles.
   EXPECT_NEAR(static_cast<double>(*car.contact_step), 36.95 / 0.6, 8.0);
@@ -160,7 +160,7 @@ TEST_F(SummaryTest, TellsTheFirstAndTheWorstOfWhatWasNotMet) {
     controller.constraint = bus::ConstraintReport{};
     if (controller.mode != bus::Mode::kActive) return;
     if (first == 0) first = cycle;
-    const std::int64_t step = cycle - first;  // of the drive, but for the cycle that engages
+    const std::int64_t step = cycle - first;  // counted from the cycle after the one that engages
     if (step >= 9 && step < 12)
       controller.constraint = {.verdict = kRelaxed,
                                .constraint = bus::ConstraintName::kObstacle,

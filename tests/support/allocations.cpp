@@ -10,7 +10,7 @@ std::atomic<std::size_t> allocations{0};
 
 void* Allocate(std::size_t size, std::size_t alignment) {
   ++allocations;
-  // aligned_alloc wants a multiple of the alignment.
+  // aligned_alloc requires a size that is a multiple of the alignment.
   if (void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)) {
     return memory;
   }

@@ -1,4 +1,4 @@
-// The TOML example in the comment that begins a header: what its manual shows has to be a file that is accepted.
+// The TOML example in the comment at the top of a header, for tests that the documented file is accepted.
 #pragma once
 
 #include <fstream>
@@ -7,7 +7,8 @@
 
 namespace test_support {
 
-// The lines "//   ..." before `#pragma once` of a header, by its path from the root, without the slashes.
+// Returns the lines "//   ..." before `#pragma once`, without the slashes. `header`: path from the root. Throws
+// std::runtime_error if the file cannot be read.
 inline std::string ExampleOf(const std::string& header) {
   std::ifstream file(LPVMPC_SOURCE_DIR "/" + header);
   if (!file) throw std::runtime_error("cannot read " + header);

@@ -33,7 +33,7 @@ Process::Process(const std::vector<std::string>& argv) {
   const std::string out = folder_ / "stdout";
   const std::string err = folder_ / "stderr";
 
-  // The child tells through this pipe why it could not start; a started program closes it.
+  // Through this pipe the child reports why it could not start; a successful exec closes it.
   int failure[2];
   if (::pipe2(failure, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   pid_ = ::fork();

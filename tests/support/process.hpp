@@ -1,4 +1,4 @@
-// A child process of a test: started at once, its output kept in files, killed at the end of its scope.
+// A child process of a test, started at once and killed at the end of its scope. Its output is kept in files.
 //
 //   Process daemon({kBinDir + "/lpvmpcd", "--config", config});
 //   daemon.Signal(SIGTERM);
@@ -27,11 +27,11 @@ class Process {
 
   void Signal(int signal);
 
-  // The exit status, 128 + N after signal N; none if it still runs after `timeout`.
+  // The exit status, 128 + N after signal N; nothing if the process still runs after `timeout`.
   [[nodiscard]] std::optional<int> Wait(std::chrono::milliseconds timeout);
   [[nodiscard]] bool Running() { return !Wait(std::chrono::milliseconds(0)).has_value(); }
 
-  // What it has written so far.
+  // Output so far.
   [[nodiscard]] std::string Stdout() const;
   [[nodiscard]] std::string Stderr() const;
 
@@ -43,11 +43,11 @@ class Process {
   std::optional<int> status_;
 };
 
-// What the kernel says of a process under this name in /proc/PID/status, "11512 kB" of "VmRSS"; "" if nothing.
+// The value of line `name` in /proc/PID/status, such as "11512 kB" for "VmRSS"; "" if there is no such line.
 [[nodiscard]] std::string KernelSays(pid_t pid, const std::string& name);
 
 struct Outcome {
-  int status = 0;  // as of Process::Wait
+  int status = 0;  // as returned by Process::Wait
   std::string out;
   std::string err;
 };
@@ -56,7 +56,7 @@ struct Outcome {
 Outcome Run(const std::vector<std::string>& argv,
             std::chrono::milliseconds timeout = std::chrono::seconds(30));
 
-// Asks `condition` every few milliseconds until it is true. False if it is not by `timeout`.
+// Polls `condition` every 5 ms until it is true. Returns false if it is not true by `timeout`.
 template <typename Condition>
 [[nodiscard]] bool WaitUntil(Condition condition,
                              std::chrono::milliseconds timeout = std::chrono::seconds(10)) {

@@ -1,4 +1,4 @@
-// A temporary folder that is removed, with all that is in it, at the end of its scope.
+// A temporary folder that is removed with its contents at the end of its scope.
 #pragma once
 
 #include <cstdlib>

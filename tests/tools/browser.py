@@ -11,7 +11,7 @@ import tempfile
 import time
 import urllib.request
 
-ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the key that the standard gives to references of elements
+ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the standard's key for element references
 
 
 def program(name):
@@ -24,8 +24,8 @@ def program(name):
 class Browser:
     def __init__(self, width=1280, height=900):
         self._home = tempfile.TemporaryDirectory(prefix="lpvmpc-browser-")
-        # A session of its own, so that what the driver has started ends with it. HOME: what the browser keeps
-        # outside of its user data is gone afterwards too.
+        # The driver gets its own session, so that all that it has started ends with it, and its own HOME, so that files
+        # of the browser outside its user data are removed as well.
         self._driver = subprocess.Popen([program("chromedriver"), "--port=0"], stdout=subprocess.PIPE, text=True,
                                         start_new_session=True, env={**os.environ, "HOME": self._home.name})
         try:
@@ -49,7 +49,7 @@ class Browser:
                      "--force-device-scale-factor=1", f"--window-size={width},{height}",
                      f"--user-data-dir={self._home.name}/data"]
         if os.geteuid() == 0:
-            arguments.append("--no-sandbox")  # which root has to do without
+            arguments.append("--no-sandbox")  # the sandbox does not work for root
         wanted = {"browserName": "chrome", "goog:chromeOptions": {"binary": program("chromium"), "args": arguments},
                   "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
         opened = self._call("POST", "", {"capabilities": {"alwaysMatch": wanted}})
@@ -65,11 +65,11 @@ class Browser:
             self._end()
 
     def _end(self):
-        # The group, and only it: it was made for the driver.
+        # Ends only the process group that was made for the driver.
         os.killpg(self._driver.pid, signal.SIGTERM)
         self._driver.wait(timeout=20)
         self._driver.stdout.close()
-        for _ in range(50):  # the browser may write its last files still
+        for _ in range(50):  # the browser may still write its last files
             try:
                 self._home.cleanup()
                 return
@@ -81,7 +81,7 @@ class Browser:
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(self._url + self._session + path, data, {"Content-Type": "application/json"},
                                          method=method)
-        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))  # a proxy knows nothing of our loopback
+        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))  # a proxy would not know our loopback
         try:
             with opener.open(request, timeout=60) as answer:
                 return json.load(answer)["value"]

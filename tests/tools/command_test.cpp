@@ -1,4 +1,4 @@
-// The three programs at their command lines: what goes wrong is one clear line on stderr and a status that is not 0.
+// Command lines of the three programs: an error yields one clear line on stderr and a non-zero status.
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -233,7 +233,7 @@ TEST(Lpvmpc, RecordedProblemsOfARunAreSolvedByBenchQp) {
   const nlohmann::json cold = nlohmann::json::parse(bench.out).at(0);
   EXPECT_GE(cold["instances"], nlohmann::json::parse(drive.out)["steps"]);
   EXPECT_EQ(cold["solved"], cold["instances"]);
-  // Another run's are not mixed with them, and a controller without any is told.
+  // Problems of two runs are not mixed, and a controller that solves none is reported.
   ExpectOneLine(run, HasSubstr(problems + " holds problems of another run"));
   run.insert(run.end() - 1, {"--controller", "nmpc"});
   run[5] = problems + "2";

@@ -100,7 +100,7 @@ TEST(Decode, BadCrcIsToldAndItsCounterIsNotBelieved) {
 TEST(Decode, FramesThatAreNotOursAreShownAsTheyCame) {
   EXPECT_EQ(Decode("(0000000001.000000) vcan0 7FF#0102\n").out,
             "(0000000001.000000) vcan0 7FF#0102 | unknown id\n");
-  // The number of VehiclePose, but extended.
+  // The id of VehiclePose, but extended.
   EXPECT_EQ(Decode("(0000000001.000000) vcan0 00000100#0102030405060708\n").out,
             "(0000000001.000000) vcan0 00000100#0102030405060708 | unknown id\n");
   EXPECT_THAT(Decode("(0000000001.000000) vcan0 100#0102\n").out,
@@ -136,7 +136,7 @@ TEST(Decode, InputThatCannotBeReadAndOutputThatCannotBeWrittenFail) {
   EXPECT_THAT(err.str(), HasSubstr("output"));
 }
 
-// Text that is told a thread at a time, as a pipe is.
+// A stream whose reader waits for text from another thread, like a pipe.
 class Pipe : public std::streambuf {
  public:
   void Write(const std::string& text) {
@@ -168,7 +168,7 @@ class Pipe : public std::streambuf {
   bool closed_ = false;
 };
 
-// Lets a test wait until a text is flushed to it.
+// Lets a test wait until text is flushed to it.
 class FlushedText : public std::stringbuf {
  public:
   std::string Wait() {

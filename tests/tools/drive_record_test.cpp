@@ -12,7 +12,7 @@ using tools::DriveRecorder;
 
 const std::filesystem::path kDemo = LPVMPC_SOURCE_DIR "/scenarios/demo";
 
-// The frames of the demo, driven once.
+// The frames of one drive of the demonstration.
 class DriveRecordTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -45,7 +45,7 @@ TEST_F(DriveRecordTest, EveryStateSetIsASampleWithTheAnswerToIt) {
     if (sample.status.solver_status != bus::SolverStatus::kSolved) continue;
     ++solved;
     ASSERT_EQ(sample.plan.size(), 9u) << k;  // N = 8
-    // A plan starts where the vehicle is; the bus tells it in millimetres.
+    // A plan starts at the vehicle; the bus transmits it in millimetres.
     EXPECT_NEAR((sample.plan[0] - sample.z.head<2>()).norm(), 0.0, 2e-3) << k;
   }
   EXPECT_GT(solved, 1000);
@@ -92,7 +92,7 @@ TEST_F(DriveRecordTest, RepeatedStateSetAndStatusOfTheTimerChangeNothing) {
   std::vector<can::Frame> frames;
   for (const can::Frame& frame : frames_) {
     frames.push_back(frame);
-    // A set again as a whole, and a second status after it.
+    // The whole state set is repeated, followed by a second status.
     if (!Is<bus::ControllerStatus>(frame)) continue;
     for (const std::uint32_t id : {bus_.Info<bus::VehiclePose>().id, bus_.Info<bus::VehicleMotion>().id,
                                    bus_.Info<bus::VehicleFeedback>().id}) {
@@ -170,7 +170,7 @@ TEST_F(DriveRecordTest, PlanChangeIsTheGreatestDistanceBetweenPlansAtTheSameTime
   EXPECT_EQ(tools::LargestPlanChange(record), 0.0);
   record.samples[2].plan[1] = {3.0, 0.7};
   EXPECT_DOUBLE_EQ(tools::LargestPlanChange(record), 0.7);
-  record.samples[2].cycle = 7;  // no longer one after the other
+  record.samples[2].cycle = 7;  // no longer consecutive
   record.samples[3].cycle = 9;
   EXPECT_EQ(tools::LargestPlanChange(record), 0.0);
 }

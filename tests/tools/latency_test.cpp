@@ -1,4 +1,4 @@
-// 50 ms of dead time in the loop, on top of the actuators' lag.
+// A drive with 50 ms of dead time in the loop, in addition to the actuators' lag.
 #include <gtest/gtest.h>
 
 #include "config/route_file.hpp"

@@ -1,5 +1,4 @@
-// The daemon and the simulated vehicle as processes of their own on a real interface, held against the same drive in
-// memory.
+// The daemon and the simulated vehicle as processes on a real interface, compared with the same drive in memory.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -97,10 +96,11 @@ TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
   const std::filesystem::path log = folder->path() / "memory.log";
   ASSERT_EQ(test_support::Run({LPVMPC, "run", "--scenario", kScenario, "--log", log.string()}).status, 0);
   const bus::VehicleBus bus;
-  const std::set<std::uint32_t> ids{bus.Info<bus::SteeringCommand>().id, bus.Info<bus::AccelerationCommand>().id};
+  const std::set<std::uint32_t> ids{bus.Info<bus::SteeringCommand>().id,
+                                    bus.Info<bus::AccelerationCommand>().id};
   std::vector<can::Frame> on_bus = WithId(ReadLog(folder->path() / "candump.log"), ids);
   const std::vector<can::Frame> in_memory = WithId(ReadLog(log), ids);
-  // On the bus the daemon's last words follow, a pair that is not enabled.
+  // On the bus the daemon's last words, a pair that is not enabled, follow.
   ASSERT_EQ(on_bus.size(), in_memory.size() + 2);
   for (std::size_t i = in_memory.size(); i < on_bus.size(); ++i) {
     const auto message = bus.Decode(on_bus[i].id, on_bus[i].Payload());
@@ -138,18 +138,18 @@ TEST_F(LockstepOnVcan, EveryFrameOnTheBusPassesItsChecks) {
 }
 
 TEST_F(LockstepOnVcan, CanplayerPlaysTheLogAgain) {
-  const std::filesystem::path log = folder->path() / "beginning.log";  // the whole would take a minute
+  const std::filesystem::path log = folder->path() / "beginning.log";  // the whole log would take a minute
   test_support::Run(
       {"sh", "-c", "head -n 10000 " + (folder->path() / "candump.log").string() + " >" + log.string()});
   ASSERT_EQ(Lines(log), 10000u);
   const std::filesystem::path replay = folder->path() / "replay.log";
   test_support::Process candump({"sh", "-c", "exec candump -r 67108864 -L vcan1 >" + replay.string()});
-  ASSERT_TRUE(test_support::WaitUntil([&] {  // candump listens once it shows a frame
+  ASSERT_TRUE(test_support::WaitUntil([&] {  // candump is listening once it shows a frame
     test_support::Run({"cansend", "vcan1", "7FF#"});
     return Lines(replay) > 0;
   }));
   const std::size_t before = Lines(replay);
-  // Sizes are asked for, not lines: reading the file again and again would keep candump from writing it.
+  // Sizes are polled, not lines: reading the file repeatedly would keep candump from writing it.
   const std::uintmax_t size = std::filesystem::file_size(replay) + std::filesystem::file_size(log);
   const test_support::Outcome player =
       test_support::Run({"canplayer", "-t", "-I", log.string(), "vcan1=vcan0"}, 60s);

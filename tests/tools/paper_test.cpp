@@ -39,11 +39,11 @@ TEST(FeasibilityScenarios, AreThoseOfThePaper) {
     const int horizon = row.trust_region.config.mpc.horizon;
     EXPECT_TRUE(horizon == 8 || horizon == 15) << row.number;
     long_horizons += static_cast<int>(horizon == 15);
-    // A circle all along.
+    // The whole road is a circle.
     const double curvature = row.road.route.At(0.0).curvature;
     EXPECT_GT(curvature, 0.0);
     EXPECT_NEAR(row.road.route.At(0.9 * row.road.route.length()).curvature, curvature, 1e-12);
-    // All else equal.
+    // The horizons are equal; one of the two has the trust region.
     EXPECT_EQ(row.standard.config.mpc.horizon, horizon);
     EXPECT_FALSE(row.standard.config.mpc.trust_region);
     EXPECT_TRUE(row.trust_region.config.mpc.trust_region);
@@ -61,7 +61,7 @@ TEST(FeasibilityScenarios, TrustRegionIsFeasibleInAllAndTheStandardControllerInT
     EXPECT_GE(row.trust_region.figures.summary.min_clearance_m.value_or(-1.0), 0.0) << row.number;
     standard += static_cast<int>(row.standard.feasible());
     if (row.standard.feasible()) continue;
-    // It is the obstacle that makes it infeasible.
+    // The obstacle makes it infeasible.
     const auto& failure = row.standard.figures.first_failure;
     ASSERT_TRUE(failure && failure->violation) << row.number;
     EXPECT_EQ(failure->violation->constraint.kind, control::ConstraintKind::kObstacle) << row.number;
@@ -88,7 +88,7 @@ TEST(CircleDrive, StepThatLacksMillimetresIsMarginalOneThatLacksMoreIsInfeasible
             CircleOutcome::kInfeasible);
 }
 
-// Made up: what the claims say of figures that are known.
+// A made-up result, for the claims about known figures.
 PaperResult MadeUp() {
   PaperResult result;
   result.feasibility = Ten();
@@ -138,7 +138,7 @@ TEST(JudgeClaims, EachFailsByItself) {
   EXPECT_EQ(Failing(result), 1);
 
   result = MadeUp();
-  result.comparison[0].lpv.times.average = 2.1e-4;  // 19 times
+  result.comparison[0].lpv.times.average = 2.1e-4;  // a speedup of 19
   EXPECT_EQ(Failing(result), 1);
 
   result = MadeUp();
@@ -173,7 +173,7 @@ TEST(FeasibilityMap, IsToldInTextJsonAndPage) {
   const std::size_t sections = tools::PaperPage(result).at("sections").size();
   EXPECT_TRUE(tools::ToJson(result).at("map").is_null());
   result.map = MadeUpMap();
-  // Shifts go up the page.
+  // Shifts increase upwards.
   EXPECT_THAT(tools::ToText(result),
               testing::HasSubstr("   0.2 m   .  t  .\n   0.1 m   .  .  m\n          10 11 12 m/s"));
   const auto map = tools::ToJson(result).at("map");
@@ -185,7 +185,7 @@ TEST(FeasibilityMap, IsToldInTextJsonAndPage) {
   const auto& section = page.at(sections);
   EXPECT_EQ(section.at("type"), "map");
   EXPECT_EQ(section.at("panels").at(0).at("cells").at(0).at(2), "marginal");
-  EXPECT_EQ(section.at("marks").size(), 5u);  // the scenarios of this horizon
+  EXPECT_EQ(section.at("marks").size(), 5u);  // the paper's scenarios with this horizon
 }
 
 TEST(FeasibilityMap, LimitEndsAtTheFirstCellThatIsNotClear) {

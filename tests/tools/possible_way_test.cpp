@@ -43,7 +43,7 @@ TEST(Encounters, OfAStandingObstacleIsWhereItStands) {
 }
 
 TEST(Encounters, OfAMovingObstacleIsWhereBothMeet) {
-  // 60 m apart, closing at 12 m/s.
+  // They start 60 m apart and close at 12 m/s.
   const auto encounters =
       tools::Encounters(With({.id = 3, .X = 760.0, .velocity_X = -2.0, .velocity_Y = 0.2}));
   ASSERT_EQ(encounters.size(), 1u);
@@ -51,7 +51,7 @@ TEST(Encounters, OfAMovingObstacleIsWhereBothMeet) {
   EXPECT_NEAR(encounters[0].s, 50.0, 1e-4);
   EXPECT_NEAR(encounters[0].lateral, 1.0, 1e-4);
   EXPECT_NEAR(encounters[0].velocity_along, -2.0, 1e-9);
-  // Behind the start, and past the end.
+  // Never met: one obstacle behind the start, one beyond the end.
   EXPECT_TRUE(tools::Encounters(With({.X = 690.0})).empty());
   EXPECT_TRUE(tools::Encounters(With({.X = 790.0, .velocity_X = 5.0})).empty());
 }
@@ -61,7 +61,7 @@ TEST(PossibleWay, RoadWithoutObstaclesIsPassed) {
 }
 
 TEST(PossibleWay, GapMustTakeTheVehicleAndTwentyCentimetresOnEitherSide) {
-  // 2.21 and 2.19 m remain on the left; less on the right.
+  // 2.21 m and 2.19 m remain on the left, less on the right.
   EXPECT_EQ(FindPossibleWay(With({.X = 750.0, .Y = -1.0, .r_x = 1.0, .r_y = 2.79})), PossibleWay::kPass);
   EXPECT_EQ(FindPossibleWay(With({.X = 750.0, .Y = -1.0, .r_x = 1.0, .r_y = 2.81})), PossibleWay::kStop);
 }
@@ -77,8 +77,8 @@ TEST(PossibleWay, SideThatIsToldIsTheOnlyOne) {
 }
 
 TEST(PossibleWay, ShiftMustBeMadeInTheTimeSinceItIsPerceived) {
-  // The shift is 0.5 + 1.5 + 1.1 - 1.0 = 2.1 m to the left: 2 sqrt(2.1 / 5.49) = 1.237 s. Stopping takes 9.1 m and
-  // the 2 m to the front end and 1 m of obstacle: 1.21 s.
+  // The shift is 0.5 + 1.5 + 1.1 - 1.0 = 2.1 m to the left: 2 sqrt(2.1 / 5.49) = 1.237 s. Stopping takes 9.1 m,
+  // plus 2 m to the front end and 1 m of obstacle: 1.21 s.
   sim::Scenario scenario = With({.id = 1, .X = 750.0, .Y = -0.5, .r_x = 1.0, .r_y = 1.5});
   scenario.appears_at[1] = 5.0 - 1.25;
   EXPECT_EQ(FindPossibleWay(scenario), PossibleWay::kPass);
@@ -89,7 +89,7 @@ TEST(PossibleWay, ShiftMustBeMadeInTheTimeSinceItIsPerceived) {
 }
 
 TEST(PossibleWay, BendTakesItsShareOfTheFriction) {
-  // υ² κ = 4 m/s² leave 1.49 m/s²: 2 sqrt(2.1 / 1.49) = 2.37 s instead of 1.24 s.
+  // υ² κ = 4 m/s² leaves 1.49 m/s² for the shift: 2 sqrt(2.1 / 1.49) = 2.37 s instead of 1.24 s.
   sim::Scenario scenario = Scenario(0.04);
   const control::RoutePoint at = scenario.route.At(50.0);
   scenario.obstacles = {{.id = 1,
@@ -102,7 +102,7 @@ TEST(PossibleWay, BendTakesItsShareOfTheFriction) {
   EXPECT_EQ(FindPossibleWay(scenario), PossibleWay::kPass);
   scenario.appears_at[1] = 5.0 - 2.3;
   EXPECT_NE(FindPossibleWay(scenario), PossibleWay::kPass);
-  scenario.plant.mu = 0.5;  // less than the bend asks for
+  scenario.plant.mu = 0.5;  // less than the bend needs
   EXPECT_EQ(FindPossibleWay(scenario), PossibleWay::kNone);
 }
 

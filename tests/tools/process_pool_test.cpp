@@ -27,7 +27,7 @@ TEST(MapInProcesses, ResultsStandInTheOrderOfTheItemsWhateverTheJobs) {
     const auto results = MapInProcesses(
         20, jobs,
         [](std::size_t i) {
-          usleep(i % 3 == 0 ? 20'000 : 0);  // the later ones overtake
+          usleep(i % 3 == 0 ? 20'000 : 0);  // later items overtake
           return std::string(i * 1000, 'x') + std::to_string(i);
         },
         [&] { ++done; });

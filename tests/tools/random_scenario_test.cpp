@@ -27,7 +27,7 @@ void ForEach(const ScenarioRanges& ranges, const Look& look) {
 }
 
 TEST(ScenarioSeed, IsTheOutputOfSplitMix64) {
-  // Of the published generator with the state 1234567.
+  // Outputs of the published generator with state 1234567.
   EXPECT_EQ(tools::ScenarioSeed(1234567, 0), 6457827717110365317u >> 11);
   EXPECT_EQ(tools::ScenarioSeed(1234567, 1), 3203168211198807973u >> 11);
   EXPECT_EQ(tools::ScenarioSeed(1234567, 4), 16408922859458223821u >> 11);
@@ -51,7 +51,7 @@ TEST(RandomScenario, IsThatOfItsSeedAlone) {
   EXPECT_NE(a.scenario.initial, c.scenario.initial);
 }
 
-// Told apart from what another standard library might draw: figures of one seed.
+// The figures of one seed are fixed, so that a dependence on the standard library would be noticed.
 TEST(RandomScenario, IsTheSameWithAnyLibrary) {
   const RandomScenario drawn = DrawScenario(1, {.speed = {8.0, 20.0}, .mu = {0.4, 1.0}});
   EXPECT_EQ(

@@ -37,7 +37,7 @@ class RealReportTest(unittest.TestCase):
     def test_demo(self):
         run("run", "--scenario", SOURCE / "scenarios/demo/scenario.toml", "--out", self.out / "demo")
         page = self.out / "demo/report.html"
-        # The plane, once more at each of three obstacles, seven plots over time; three fans.
+        # The plane, again at each of three obstacles, seven plots over time, and three fans.
         report_page_check.check_page(self.chromium, page, 1 + 3 + 7 + 3)
         self.assertIn("passed", self.text())
         self.assertLess(page.stat().st_size, 600_000)
@@ -48,7 +48,7 @@ class RealReportTest(unittest.TestCase):
         figures = json.loads((out / "paper.json").read_text())
         self.assertTrue(figures["passed"])
         self.assertEqual(sum(row["lpv"]["feasible"] for row in figures["feasibility"]), 10)
-        # Two fans; of each comparison the plane and seven plots over time, at an obstacle the plane once more.
+        # Two fans; the plane and seven plots over time of each of four comparisons; the plane again at two obstacles.
         report_page_check.check_page(self.chromium, out / "report.html", 2 + 4 * 8 + 2)
         text = self.text()
         for word in ("tracking-1", "obstacle-2", "infeasible: obstacle 1 at i", "standard LPVMPC", "306.7"):

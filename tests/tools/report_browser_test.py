@@ -18,7 +18,7 @@ from report_page_check import LEAST_COLOURED, check_page, complaints, read_plots
 
 RENDER_REPORT = ""
 TITLE = "A bend & <two> controllers"
-# The first section that shows drives: its plane, and its plots over time.
+# The first section with drives, its plane and its plots over time.
 DRIVES = "section:nth-of-type(4)"
 PLANE = f"{DRIVES} > figure .u-over"
 PLANE_READOUT = f"return document.querySelector('{DRIVES} > figure .readout').textContent"
@@ -33,7 +33,7 @@ def emptied(report):
     for drive in report["drives"].values():
         steps = len(drive["series"]["t"])
         drive["series"] = {name: drive["series"]["t"] if name == "t" else [None] * steps for name in drive["series"]}
-        # A scheduling series with a value keeps its plot: zero, at one step, which is no line.
+        # A scheduling series keeps its plot if it has a value: a zero at one step, which makes no line.
         drive["series"]["active_rows"] = [0 if drive["controller"] != "nmpc" and k == 0 else None for k in range(steps)]
         drive["plans"] = {"k": [], "dX": [], "dY": []}
     for section in report["sections"]:
@@ -137,7 +137,7 @@ class ReportPage(unittest.TestCase):
         for text in readouts + self.texts(f"{DRIVES} > figure .readout"):
             self.assertAlmostEqual(float(re.match(r"t = (\d+\.\d+) s", text)[1]), 6.0, delta=0.05)
         changed = [i for i, plot in enumerate(read_plots(self.chromium)) if plot["hash"] != before[i]]
-        self.assertEqual(changed, [0, 1, 2])  # the planes of this section alone; cursors are no part of a canvas
+        self.assertEqual(changed, [0, 1, 2])  # only the planes of this section; cursors are not part of a canvas
 
         self.chromium.point("h1", 0.5, 0.5)
         self.chromium.wait_for(PLANE_READOUT + " === ''", "the cursor to go")
@@ -209,7 +209,7 @@ class ReportPage(unittest.TestCase):
                                "the dark paper")
         for before, after in zip(light, read_plots(self.chromium), strict=True):
             self.assertNotEqual(before["hash"], after["hash"], after["title"])
-            if "lpv" not in after["title"]:  # the map's most frequent colours are as light in both
+            if "lpv" not in after["title"]:  # the map's most frequent colours are equally light in both schemes
                 self.assertGreater(after["lightness"], before["lightness"] + 20, after["title"])
         self.assertEqual(complaints(self.chromium), [])
 
@@ -264,7 +264,7 @@ class ReportPage(unittest.TestCase):
         assert_seen("CanvasRenderingContext2D.prototype.stroke = () => {};", "nothing is drawn")
         assert_seen("console.warn('hm');", "complains")
         assert_seen("new Image().src = 'http://127.0.0.1:9/x.png';", "complains")
-        # An error while something is drawn, long after the page was built.
+        # An error during drawing, long after the page was built.
         assert_seen("Path2D.prototype.ellipse = () => { throw new Error('no ellipse'); };", "no ellipse")
         report["sections"].pop()
         self.assert_check_fails(self.write(report), "plots told")

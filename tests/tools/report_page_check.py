@@ -30,7 +30,7 @@ return [...document.querySelectorAll("figure")].map(figure => {
           lightness: coloured ? sum / coloured / 3 : 0, hash};
 });
 """
-# Axes and grid are grey; what a drive has drawn is coloured.
+# Axes and grid are grey; the curves of drives are coloured. Number of pixels.
 LEAST_COLOURED = 200
 
 

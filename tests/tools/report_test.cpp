@@ -24,7 +24,7 @@ std::string Read(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// A folder as `lpvmpc run --out` leaves it.
+// A folder as `lpvmpc run --out` writes it.
 class ReportTest : public testing::Test {
  protected:
   ReportTest() {
@@ -35,7 +35,7 @@ class ReportTest : public testing::Test {
     EXPECT_EQ(tools::Run(options, out), 0);
   }
   void Write(const char* name, const std::string& text) const { std::ofstream(run_ / name) << text; }
-  // What the report says about the folder; empty if it was written.
+  // The report's error about the folder; empty if the page was written.
   [[nodiscard]] std::string Error() const {
     std::filesystem::remove(page_);
     try {

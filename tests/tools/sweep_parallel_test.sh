@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# A sweep in two shards under GNU parallel, as docs/sweep.md shows it, is that in one. usage: sweep_parallel_test.sh LPVMPC
+# A sweep in two shards under GNU parallel (docs/sweep.md) equals the whole one. usage: sweep_parallel_test.sh LPVMPC
 set -euo pipefail
 lpvmpc=$1
 work=$(mktemp -d /tmp/sweep_parallel_test.XXXXXX)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-export HOME=$work # where parallel keeps what it remembers
+export HOME=$work # parallel keeps its state there
 sweep=("$lpvmpc" sweep --count 3 --seed 7 --speed 9 12 --controller lpv lpv-standard --jobs 1)
 
 parallel --jobs 2 --results 'parts/{}' "${sweep[@]}" --shard '{}/2' ::: 1 2 >/dev/null
@@ -13,7 +13,7 @@ parallel --jobs 2 --results 'parts/{}' "${sweep[@]}" --shard '{}/2' ::: 1 2 >/de
 "${sweep[@]}" --out whole >whole.txt
 cmp merged/sweep.json whole/sweep.json
 
-# What either of them tells differs in times alone, and in its folder.
+# The merged figures are those of the whole sweep, apart from the times.
 "$lpvmpc" sweep merge parts/2 parts/1 --json >merged.json
 python3 - <<'PYTHON'
 import json
@@ -25,7 +25,7 @@ assert timing["lpv"]["steps"] == json.load(open("whole/timing.json"))["lpv"]["st
 assert [scenario["index"] for scenario in whole["scenarios"]] == [0, 1, 2]
 PYTHON
 
-# Half of it is refused.
+# One of the two shards alone is rejected.
 if "$lpvmpc" sweep merge parts/1 --out half 2>error; then
   echo "one of two shards was taken for the whole" >&2
   exit 1

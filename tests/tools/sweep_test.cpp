@@ -138,7 +138,7 @@ TEST(SweepDrive, WallThatIsSeenTooLateIsHit) {
 
 TEST(SweepDrive, CornerBesideTheRoadIsOffIt) {
   tools::RandomScenario drawn = WithoutObstacles(3);
-  drawn.scenario.road.left = 0.5;  // the controller is not told
+  drawn.scenario.road.left = 0.5;  // the controller does not know of it
   const SweepDrive drive = DriveOf(drawn);
   EXPECT_EQ(drive.outcome, SweepOutcome::kOffRoad);
   EXPECT_THAT(drive.why, HasSubstr("off the road at step "));
@@ -149,7 +149,7 @@ TEST(SweepDrive, DriveThatTheDriverBrakesToAStopIsStopped) {
   tools::RandomScenario drawn = tools::DrawScenario(3, slow);
   drawn.scenario.obstacles.clear();
   drawn.scenario.driver.brake_at = 1.0;
-  drawn.scenario.road = {.left = 20.0, .right = -20.0};  // the driver holds the wheel
+  drawn.scenario.road = {.left = 20.0, .right = -20.0};  // wide, since the driver does not steer
   EXPECT_EQ(tools::DriveSweepScenario(drawn, slow, "lpv").drive.outcome, SweepOutcome::kStopped);
 }
 
@@ -167,7 +167,7 @@ TEST(SweepDrive, SlowestStartIsFastEnoughToEngage) {
     EXPECT_LT(tools::ConfigFor(controller, ranges).loop.engage_min_speed, 0.9 * ranges.speed.low);
 }
 
-// The cost of lpv-affine is measured against the nonlinear controller that is driven alike.
+// The cost of lpv-affine is compared with that of the nonlinear controller for the same problem.
 TEST(SweepConfig, NmpcHasTheProblemOfLpvAffine) {
   const loop::Config affine = tools::ConfigFor("lpv-affine", {}), nmpc = tools::ConfigFor("nmpc", {});
   EXPECT_EQ(nmpc.controller, loop::ControllerKind::kNmpcAffine);
@@ -176,7 +176,7 @@ TEST(SweepConfig, NmpcHasTheProblemOfLpvAffine) {
   EXPECT_EQ(nmpc.affine.footprint.half_width, affine.affine.footprint.half_width);
   EXPECT_EQ(nmpc.loop.command_delay, affine.loop.command_delay);
   EXPECT_FALSE(IsPapers(nmpc.controller));
-  // A drive's file names the kind, and is read again.
+  // The name of the kind, as written to a drive's file, can be read back.
   EXPECT_EQ(tools::ConfigFor(loop::ControllerName(nmpc.controller), {}).controller, nmpc.controller);
 }
 
@@ -278,7 +278,7 @@ class Parts : public testing::Test {
   [[nodiscard]] std::string ErrorOfMerge(const std::vector<std::filesystem::path>& files) const {
     return ErrorOf([&] { (void)tools::MergeParts(files); });
   }
-  // A part as if driven.
+  // A part with made-up drives.
   static SweepPart Made(const SweepSetup& setup, const Shard& shard) {
     SweepPart part{.result = {.setup = setup, .scenarios = {}, .times = {}}, .shard = shard};
     for (const int index : shard.Indices(setup.count)) {
@@ -362,7 +362,7 @@ TEST_F(Parts, WhatIsNoneIsRefusedWithItsFile) {
   EXPECT_THAT(error(""), HasSubstr(place));
   EXPECT_THAT(error(text.substr(0, text.size() / 2)), HasSubstr(place));
   EXPECT_THAT(error("[]"), HasSubstr(place));
-  // A whole sweep's, which has no shard.
+  // The file of a whole sweep has no shard.
   EXPECT_THAT(error(tools::ToJson(Made(Small(), {}).result).dump()),
               AllOf(HasSubstr(place), HasSubstr("shard")));
   SweepPart part = Made(Small(), {.index = 1, .of = 1});

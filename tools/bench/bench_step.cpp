@@ -41,11 +41,8 @@ void Drive(const sim::Scenario& scenario, const loop::Config& config, const cont
   for (int k = 0; k + horizon < reference.size(); ++k) {
     const control::Plan* step = nullptr;
     samples.times.Measure([&] {
-      const control::RoutePlace place{.on_route = true,
-                                      .nearest = k,
-                                      .s = reference.ArcLength(k),
-                                      .due = k,
-                                      .samples = reference.size()};
+      const control::RoutePlace place{
+          .on_route = true, .nearest = k, .s = reference.ArcLength(k), .due = k, .samples = reference.size()};
       step = &controller->Step(
           {.z = plant.state(), .u_previous = u, .place = place, .obstacles = scenario.obstacles});
     });

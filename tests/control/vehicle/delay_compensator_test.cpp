@@ -30,7 +30,7 @@ TEST(DelayCompensator, WithoutDelayAndAgeTheStateIsAsMeasured) {
 
 TEST(DelayCompensator, TheCommandOfTheCycleBeforeActsUntilTheNewOne) {
   DelayCompensator delay({}, kPeriod, 0.03);
-  delay.Given({0.4, -5.0});  // over by now
+  delay.Given({0.4, -5.0});  // no longer acts
   delay.Given({0.02, 1.0});
   const State ahead = delay.Ahead(Moving(), 0.0);
   EXPECT_LT((ahead - Driven(Moving(), {0.02, 1.0}, 0.03)).norm(), 1e-4);

@@ -27,7 +27,7 @@ class AffineModelTest : public ::testing::Test {
   DiscreteModel discrete_{model_, kTs};
 };
 
-// Holds the derivatives of f(z, u) against its central differences.
+// Compares the derivatives of f(z, u) with its central differences.
 template <typename Function>
 void ExpectDerivatives(const LinearModel& exact, const State& z, const Input& u, double tolerance,
                        Function f) {
@@ -74,7 +74,7 @@ TEST_F(AffineModelTest, SlowItRollsOnACircleWithoutSlip) {
   State z = State::Zero();
   z[kUpsilon] = 2.0;
   for (int i = 0; i < 40; ++i) z = discrete_.Step(z, u);  // ν and ω settle
-  // Speed of the rear axle's middle along the vehicle is υ, and its radius (l_f + l_r)/tan δ.
+  // The middle of the rear axle moves along the vehicle at υ, on a radius of (l_f + l_r)/tan δ.
   EXPECT_NEAR(z[kOmega] * (v.l_f + v.l_r) / std::tan(u[kDelta]), z[kUpsilon], 0.02);
   EXPECT_NEAR(z[kNu], v.l_r * z[kOmega], 0.01);
 }

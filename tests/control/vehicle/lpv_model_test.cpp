@@ -49,7 +49,7 @@ TEST(SingleTrackModel, StraightDriveMovesAlongTheHeadingOnly) {
   EXPECT_LT((f - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-// Steady turn of the linear bicycle: δ = (l + K υ²) ω / υ with K = m (l_r C_r − l_f C_f) / (2 l C_f C_r).
+// Steady turn of the linear bicycle model: δ = (l + K υ²) ω / υ with K = m (l_r C_r − l_f C_f) / (2 l C_f C_r).
 TEST(SingleTrackModel, SteadyTurnNeedsTheUndersteerGradientsSteeringAngle) {
   const VehicleParameters p;
   const double l = p.l_f + p.l_r, upsilon = 15.0, omega = 0.01;
