@@ -77,7 +77,7 @@ double RequireNumber(const dbc::MessageDefinition& message, const char* attribut
   if (!number) throw std::runtime_error("message " + message.name + " has no attribute " + attribute);
   if (!(*number >= 0.0 && *number <= max && *number == std::floor(*number))) {
     throw std::runtime_error("attribute " + std::string(attribute) + " of message " + message.name +
-                             " is no integer from 0 to " + std::to_string(static_cast<int>(max)));
+                             " is not an integer from 0 to " + std::to_string(static_cast<int>(max)));
   }
   return *number;
 }
@@ -117,7 +117,7 @@ struct VehicleBus::Binding {
     for (const std::size_t other : messages[type.message].types) {
       if (types[other].multiplexor != type.multiplexor ||
           types[other].multiplexor_value == type.multiplexor_value) {
-        throw std::runtime_error("message " + message->name + " has no multiplexor that tells signal " +
+        throw std::runtime_error("message " + message->name + " has no multiplexor to distinguish signal " +
                                  types[other].signals.back()->name + " from " + type.signals.back()->name);
       }
     }
@@ -135,7 +135,7 @@ struct VehicleBus::Binding {
     }
     if (type.multiplexor != nullptr && type.multiplexor_value != values.front().first) {
       throw std::runtime_error("signal " + signal.name + " of message " + message.name +
-                               " does not stand in one frame with those that belong to it");
+                               " is not in the same frame as the other signals of its struct");
     }
     type.multiplexor = &multiplexor;
     type.multiplexor_value = values.front().first;
@@ -177,7 +177,7 @@ struct VehicleBus::Binding {
     if (mask != first_byte)
       throw std::runtime_error("signal CRC of message " + message.name + " is not byte 0");
     if (bound.counter->length != 4) {
-      throw std::runtime_error("signal Counter of message " + message.name + " has not 4 bits");
+      throw std::runtime_error("signal Counter of message " + message.name + " is not 4 bits long");
     }
   }
 

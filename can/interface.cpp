@@ -22,10 +22,10 @@ bool IsVirtual(const std::string& interface) {
   request.ifr_data = reinterpret_cast<char*>(&info);
   const int fd = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return false;
-  const bool told = ::ioctl(fd, SIOCETHTOOL, &request) == 0;
+  const bool known = ::ioctl(fd, SIOCETHTOOL, &request) == 0;
   ::close(fd);
   const std::string_view driver(info.driver, ::strnlen(info.driver, sizeof(info.driver)));
-  return told && (driver == "vcan" || driver == "vxcan");
+  return known && (driver == "vcan" || driver == "vxcan");
 }
 
 }  // namespace can

@@ -66,7 +66,7 @@ control::Route ReadPieces(const TomlTable& table, double speed) {
                                   .psi = start_table.Number("psi", kHeading, "rad")};
   std::vector<control::RoutePiece> pieces;
   for (const TomlTable& piece : table.Tables("pieces")) pieces.push_back(ReadPiece(piece));
-  if (pieces.empty()) throw table.Error("pieces", "must hold at least one piece, or waypoints be given");
+  if (pieces.empty()) throw table.Error("pieces", "must hold at least one piece, or waypoints must be given");
   double length = 0.0;
   for (const control::RoutePiece& piece : pieces) length += piece.length;
   return Checked(table, "pieces", length, [&] { return control::Route::FromPieces(start, speed, pieces); });

@@ -12,12 +12,12 @@ namespace lpvmpcd {
 
 using namespace std::chrono_literals;
 
-bool EventCount::Tell(std::uint64_t total, base::Time now, std::uint64_t& news) {
-  if (total == told_ || (told_ != 0 && now - last_ < 1s)) {
+bool EventCount::Due(std::uint64_t total, base::Time now, std::uint64_t& unreported) {
+  if (total == reported_ || (reported_ != 0 && now - last_ < 1s)) {
     return false;
   }
-  news = total - told_;
-  told_ = total;
+  unreported = total - reported_;
+  reported_ = total;
   last_ = now;
   return true;
 }
@@ -32,13 +32,13 @@ void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base:
     const bool bad = report.mode == bus::Mode::kSafeStop || report.mode == bus::Mode::kFault;
     spdlog::log(bad ? spdlog::level::warn : spdlog::level::info, "mode {} -> {}: {}",
                 Name(report.previous_mode), Name(report.mode), safety::Name(report.cause));
-    told_fault_ = report.fault;  // usually this is the cause, which was just logged
+    reported_fault_ = report.fault;  // usually this is the cause, which was just logged
   } else if (!faulty) {
-    told_fault_ = report.fault;
-  } else if (report.fault != told_fault_ && now - last_fault_ >= 1s) {
+    reported_fault_ = report.fault;
+  } else if (report.fault != reported_fault_ && now - last_fault_ >= 1s) {
     spdlog::log(bus::Commands(report.mode) ? spdlog::level::warn : spdlog::level::info, "in {}: {}",
                 Name(report.mode), FaultText(report));
-    told_fault_ = report.fault;
+    reported_fault_ = report.fault;
     last_fault_ = now;
   }
   if (report.engagement_refused) {
@@ -51,28 +51,28 @@ void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base:
   std::uint64_t n = 0;
   for (std::size_t i = 0; i < safety::kRxFaults; ++i) {
     const auto fault = static_cast<safety::RxFault>(i);
-    if (rx_faults_[i].Tell(loop.monitor().count(fault), now, n)) {
+    if (rx_faults_[i].Due(loop.monitor().count(fault), now, n)) {
       spdlog::warn("{} refused: {} ({} since start)", n == 1 ? "frame" : fmt::format("{} frames", n),
                    Name(fault), loop.monitor().count(fault));
     }
   }
-  if (lost_.Tell(loop.monitor().lost(), now, n)) {
+  if (lost_.Due(loop.monitor().lost(), now, n)) {
     spdlog::warn("frames lost on the bus: {}", n);
   }
-  if (rejected_lists_.Tell(loop.obstacles().rejected(), now, n)) {
-    spdlog::warn("obstacle lists that did not fit their objects: {}", n);
+  if (rejected_lists_.Due(loop.obstacles().rejected(), now, n)) {
+    spdlog::warn("obstacle lists that do not match their objects: {}", n);
   }
-  if (plans_refused_.Tell(report.plans_refused, now, n)) {
+  if (plans_refused_.Due(report.plans_refused, now, n)) {
     spdlog::warn("plans not accepted: {}, last: {}", n, Name(report.last_refusal));
   }
   Constraint(report, now);
-  if (deadline_misses_.Tell(report.deadline_misses, now, n)) {
+  if (deadline_misses_.Due(report.deadline_misses, now, n)) {
     spdlog::warn("deadlines missed: {}", n);
   }
   if (trigger == loop::Trigger::kTimer && report.mode != bus::Mode::kInit) {
     ++timer_cycles_;
   }
-  if (late_states_.Tell(timer_cycles_, now, n)) {
+  if (late_states_.Due(timer_cycles_, now, n)) {
     spdlog::warn("cycles without a new vehicle state: {}", n);
   }
 }
@@ -80,16 +80,16 @@ void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base:
 // Logs at most once a second.
 void EventLog::Constraint(const loop::CycleReport& report, base::Time now) {
   const auto& violation = report.unmet();
-  if (!violation || (constraint_told_ && now - last_constraint_ < 1s)) return;
-  constraint_told_ = true;
+  if (!violation || (constraint_reported_ && now - last_constraint_ < 1s)) return;
+  constraint_reported_ = true;
   last_constraint_ = now;
   const std::string text = loop::ViolationText(*violation);
   if (report.solver != bus::SolverStatus::kSolved) {
-    spdlog::warn("problem not solved; most in the way: {}", text);
+    spdlog::warn("problem not solved; constraint hardest to meet: {}", text);
   } else if (!report.rejection) {
     spdlog::info("constraint relaxed: {}", text);
   } else if (report.plan_accepted) {
-    spdlog::warn("plan followed all the same, since the last one is no better: {}", text);
+    spdlog::warn("plan followed despite a violation, since the last plan is no better: {}", text);
   } else {
     spdlog::warn("plan rejected: {}", text);
   }
@@ -97,14 +97,14 @@ void EventLog::Constraint(const loop::CycleReport& report, base::Time now) {
 
 void EventLog::Dropped(std::uint64_t total, base::Time now) {
   std::uint64_t n = 0;
-  if (dropped_.Tell(total, now, n)) {
+  if (dropped_.Due(total, now, n)) {
     spdlog::warn("receive buffer full: {} frames dropped by the kernel", n);
   }
 }
 
 void EventLog::Unsent(std::uint64_t total, base::Time now) {
   std::uint64_t n = 0;
-  if (unsent_.Tell(total, now, n)) {
+  if (unsent_.Due(total, now, n)) {
     spdlog::warn("transmit queue full: {} frames not sent", n);
   }
 }

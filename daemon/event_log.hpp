@@ -15,11 +15,11 @@ namespace lpvmpcd {
 // Reports how often something has happened, at most once a second.
 class EventCount {
  public:
-  // `total`: number of events since start. True if a report is due: `news` is the number of events not yet reported.
-  [[nodiscard]] bool Tell(std::uint64_t total, base::Time now, std::uint64_t& news);
+  // `total`: number of events since start. True if a report is due: `unreported` is the number of events not yet reported.
+  [[nodiscard]] bool Due(std::uint64_t total, base::Time now, std::uint64_t& unreported);
 
  private:
-  std::uint64_t told_ = 0;
+  std::uint64_t reported_ = 0;
   base::Time last_{};
 };
 
@@ -41,9 +41,9 @@ class EventLog {
   std::array<EventCount, safety::kRxFaults> rx_faults_;
   EventCount lost_, rejected_lists_, plans_refused_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;
-  bus::FaultCode told_fault_ = bus::FaultCode::kNone;
+  bus::FaultCode reported_fault_ = bus::FaultCode::kNone;
   base::Time last_fault_{};
-  bool constraint_told_ = false;
+  bool constraint_reported_ = false;
   base::Time last_constraint_{};
 };
 

@@ -41,10 +41,10 @@ void Notifier::Cycle(const loop::CycleReport& report, const base::Latencies& lat
     sd_notify(0, "WATCHDOG=1");
   }
   const bool changed = report.mode != mode_ || report.fault != fault_;
-  if (told_ && !changed && now - last_status_ < 1s) {
+  if (reported_ && !changed && now - last_status_ < 1s) {
     return;
   }
-  told_ = true;
+  reported_ = true;
   last_status_ = now;
   mode_ = report.mode;
   fault_ = report.fault;

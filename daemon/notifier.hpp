@@ -31,7 +31,7 @@ class Notifier {
   bus::Mode mode_ = bus::Mode::kInit;
   bus::FaultCode fault_ = bus::FaultCode::kNone;
   bool fed_ = false;
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace lpvmpcd

@@ -73,7 +73,7 @@ Service::Service(const loop::ServiceSettings& settings, loop::ControlLoop& loop,
       last_empty_(base::MonotonicNow()) {
   if (settings_.lockstep && !can::IsVirtual(settings_.interface)) {
     throw std::runtime_error("interface \"" + settings_.interface +
-                             "\" is not a virtual one (vcan, vxcan), and lock step is for simulation only");
+                             "\" is not virtual (vcan, vxcan), and lock step is for simulation only");
   }
   for (const int fd : {socket_.fd(), signals_.get(), timer_.fd(), retry_timer_.fd()}) {
     epoll_event event{};
@@ -245,7 +245,7 @@ void Service::Send(std::span<const can::Frame> frames) {
 void Service::SendLastWords() {
   const auto wait = [] { std::this_thread::sleep_for(1ms); };
   if (!transmitter_.SendLast(loop_->Disable(), wait)) {
-    spdlog::error("the last commands, not enabled, could not be sent on {}", settings_.interface);
+    spdlog::error("the final, disabled commands could not be sent on {}", settings_.interface);
   }
 }
 

@@ -298,7 +298,7 @@ class Parser {
       std::size_t steps = 0;
       for (const Signal* s = &all[i]; s->multiplexing; s = &all[s->multiplexing->multiplexor]) {
         if (++steps <= all.size()) continue;
-        in_.Fail(notes[i].place, "the multiplexors of signal " + all[i].name + " go in circles");
+        in_.Fail(notes[i].place, "the multiplexors of signal " + all[i].name + " are circular");
       }
     }
   }

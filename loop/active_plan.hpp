@@ -15,11 +15,11 @@ class ActivePlan {
   explicit ActivePlan(int horizon) { u_.reserve(static_cast<std::size_t>(horizon)); }
 
   // `plan` was made at `step`, to which its first input applies. Does not allocate.
-  void Take(const control::Plan& plan, std::int64_t step) {
+  void Set(const control::Plan& plan, std::int64_t step) {
     u_.assign(plan.u.begin(), plan.u.end());
     made_ = step;
   }
-  void Drop() { u_.clear(); }
+  void Clear() { u_.clear(); }
 
   [[nodiscard]] bool exists() const { return !u_.empty(); }
   // Steps since the plan was made; meaningless without a plan.

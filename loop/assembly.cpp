@@ -29,7 +29,7 @@ std::unique_ptr<control::Controller> MakeController(const Config& config, const 
   // Ipopt allocates memory and its run time is not bounded.
   throw std::runtime_error(
       std::string("controller ") + ControllerName(config.controller) +
-      " is for lpvmpc alone: no daemon drives by it; take lpv-affine, lpv or lpv-standard");
+      " is for lpvmpc alone; the daemon does not support it: take lpv-affine, lpv or lpv-standard");
 }
 
 bus::VehicleBus OpenBus(const Config& config) {

@@ -60,7 +60,7 @@ void RefuseContradictions(const TomlTable& root, const Config& config) {
   if (config.loop.stop_deceleration > strongest) {
     const TomlTable stop = root.Table("safe_stop");
     const std::string unless =
-        stop.Has("deceleration") ? "" : fmt::format(" ({} unless given)", config.loop.stop_deceleration);
+        stop.Has("deceleration") ? "" : fmt::format(" (default {})", config.loop.stop_deceleration);
     throw stop.Error("deceleration",
                      fmt::format("must not be above {}, the strongest braking of limits.min_acceleration{}",
                                  strongest, unless));

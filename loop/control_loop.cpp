@@ -63,7 +63,7 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   const bool commanding = bus::Commands(before.mode);
 
   // 1. The snapshot of the inputs, and the vehicle's place on the route.
-  const Snapshot known = inbox_.Take(now, trigger);
+  const Snapshot known = inbox_.TakeSnapshot(now, trigger);
   commands_.Observe(known.state, commanding);
   const control::RoutePlace place = tracker_.Advance(known, commanding, commands_.applied());
   const control::RouteProgress progress = planner_.ProgressAt(place);

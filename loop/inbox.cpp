@@ -54,7 +54,7 @@ bool Inbox::TakeMessage(const safety::Accepted& accepted, base::Time now) {
   return false;
 }
 
-Snapshot Inbox::Take(base::Time now, Trigger trigger) {
+Snapshot Inbox::TakeSnapshot(base::Time now, Trigger trigger) {
   if (trigger == Trigger::kTimer) {
     steps_.CountTimer();
   }

@@ -1,7 +1,7 @@
 // Input from the bus: the message monitor checks each frame, its values go to the assembler of their kind, and each
 // cycle takes a snapshot.
 //
-//   if (inbox.Receive(frame, now)) … = inbox.Take(now, Trigger::kState);
+//   if (inbox.Receive(frame, now)) … = inbox.TakeSnapshot(now, Trigger::kState);
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ class Inbox {
 
   // Counts the step if the timer starts the cycle. An event between two cycles (a touch of the brake, a released
   // switch) appears in exactly one snapshot.
-  [[nodiscard]] Snapshot Take(base::Time now, Trigger trigger);
+  [[nodiscard]] Snapshot TakeSnapshot(base::Time now, Trigger trigger);
 
   void Reconfigure(const safety::MonitorSettings& settings) { monitor_.Reconfigure(settings); }
   // False while the interface is down or gone.

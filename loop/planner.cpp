@@ -93,7 +93,7 @@ void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, Ou
   }
   outcome.accepted = refusal == bus::FaultCode::kNone;
   if (outcome.accepted) {
-    active_.Take(plan, known.step);
+    active_.Set(plan, known.step);
   } else {
     ++refused_;
     last_refusal_ = refusal;

@@ -71,7 +71,7 @@ class Planner {
   }
 
   // Drops the active plan, so that the next drive begins with a new one.
-  void Forget() { active_.Drop(); }
+  void Forget() { active_.Clear(); }
 
   [[nodiscard]] const ActivePlan& active() const { return active_; }
   // Number of plans refused since the start, and the reason of the last refusal.

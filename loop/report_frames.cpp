@@ -85,21 +85,21 @@ void AppendConstraint(const CycleReport& report, safety::CommandGate& gate, std:
   // A plan that is followed as the lesser evil is reported as relaxed.
   const bool rejected = report.rejection && !report.plan_accepted;
   const auto& violation = report.unmet();
-  bus::ConstraintReport told;
+  bus::ConstraintReport unmet;
   if (violation) {
     const auto code = [](int value, int most) {
       return static_cast<std::uint8_t>(std::clamp(value, 0, most));
     };
     const bool relaxed = report.solver == bus::SolverStatus::kSolved;
-    told = {.verdict = rejected  ? bus::ConstraintVerdict::kRejected
-                       : relaxed ? bus::ConstraintVerdict::kRelaxed
-                                 : bus::ConstraintVerdict::kUnsolved,
-            .constraint = NameOf(violation->constraint.kind),
-            .index = code(violation->constraint.index, 15),
-            .step = code(violation->constraint.step, 127),
-            .amount = violation->amount};
+    unmet = {.verdict = rejected  ? bus::ConstraintVerdict::kRejected
+                        : relaxed ? bus::ConstraintVerdict::kRelaxed
+                                  : bus::ConstraintVerdict::kUnsolved,
+             .constraint = NameOf(violation->constraint.kind),
+             .index = code(violation->constraint.index, 15),
+             .step = code(violation->constraint.step, 127),
+             .amount = violation->amount};
   }
-  Append(told, gate, frames);
+  Append(unmet, gate, frames);
 }
 
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, base::Time period,

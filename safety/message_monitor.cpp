@@ -69,7 +69,7 @@ std::variant<Accepted, RxFault> MessageMonitor::Check(const can::Frame& frame, b
     return refuse(RxFault::kUnknown);
   }
   Accepted accepted{.kind = static_cast<RxMessage>(row - table_.begin())};
-  const std::optional<RxFault> fault = Judge(*row, frame, accepted);
+  const std::optional<RxFault> fault = Validate(*row, frame, accepted);
   if (fault) {
     row->last_fault = fault;
     row->refused_at = now;
@@ -80,7 +80,7 @@ std::variant<Accepted, RxFault> MessageMonitor::Check(const can::Frame& frame, b
   return accepted;
 }
 
-std::optional<RxFault> MessageMonitor::Judge(Row& row, const can::Frame& frame, Accepted& out) const {
+std::optional<RxFault> MessageMonitor::Validate(Row& row, const can::Frame& frame, Accepted& out) const {
   if (frame.kind != can::FrameKind::kData || frame.extended || frame.fd) return RxFault::kWrongKind;
 
   const bus::E2eCheck check = bus_->Check(frame.id, frame.Payload());

@@ -126,7 +126,7 @@ class MessageMonitor {
     return table_[static_cast<std::size_t>(message)];
   }
   // nullopt if the frame passes: then all of `out` except its kind is set.
-  [[nodiscard]] std::optional<RxFault> Judge(Row& row, const can::Frame& frame, Accepted& out) const;
+  [[nodiscard]] std::optional<RxFault> Validate(Row& row, const can::Frame& frame, Accepted& out) const;
 
   const bus::VehicleBus* bus_;
   int max_lost_ = 0;

@@ -85,7 +85,8 @@ void ReadObstacles(const TomlTable& file, Scenario& scenario) {
     if (table.Has("appears_at")) {
       scenario.appears_at[obstacles.back().id] = table.Number("appears_at", kTime, "s");
     }
-    if (!ids.insert(obstacles.back().id).second) throw table.Error("id", "is that of an obstacle before");
+    if (!ids.insert(obstacles.back().id).second)
+      throw table.Error("id", "is already used by another obstacle");
     if (obstacles.size() > static_cast<std::size_t>(kObjectId.max)) {  // all that ObstacleList can count
       throw table.Error("id", fmt::format("is one obstacle more than {}", kObjectId.max));
     }

@@ -23,9 +23,9 @@ void KeepSmaller(std::optional<double>& smallest, double value) {
   smallest = std::min(smallest.value_or(value), value);
 }
 
-class Judge {
+class ExpectationCheck {
  public:
-  explicit Judge(std::vector<std::string>& failed) : failed_(&failed) {}
+  explicit ExpectationCheck(std::vector<std::string>& failed) : failed_(&failed) {}
 
   template <typename T>
   void AtMost(const char* name, const T& value, const std::optional<T>& limit) {
@@ -133,8 +133,8 @@ void Recorder::RecordPlace(const VirtualVehicle& vehicle, double lateral) {
 }
 
 bool Recorder::EndReached(const VirtualVehicle& vehicle) const {
-  const bool route_end_told = engaged_ && vehicle.status().fault_code == bus::FaultCode::kRouteEnd;
-  return route_end_told || arc_length_ >= scenario_->route.length() ||
+  const bool route_end_reported = engaged_ && vehicle.status().fault_code == bus::FaultCode::kRouteEnd;
+  return route_end_reported || arc_length_ >= scenario_->route.length() ||
          (scenario_->duration && vehicle.time() + kCycleTime >= *scenario_->duration - 1e-9);
 }
 
@@ -181,13 +181,13 @@ Summary Recorder::Result() const {
   if (summary.completed != expect.completed) {
     summary.failed_expectations.push_back(fmt::format("completed = {}", summary.completed));
   }
-  Judge judge(summary.failed_expectations);
-  judge.AtMost("infeasible_steps", summary.infeasible_steps, expect.max_infeasible_steps);
-  judge.AtLeast("min_clearance_m", summary.min_clearance_m, expect.min_clearance_m);
-  judge.AtLeast("min_road_margin_m", summary.min_road_margin_m, expect.min_road_margin_m);
-  judge.AtMost("rms_lateral_error_m", summary.rms_lateral_error_m.value_or(0.0),
+  ExpectationCheck check(summary.failed_expectations);
+  check.AtMost("infeasible_steps", summary.infeasible_steps, expect.max_infeasible_steps);
+  check.AtLeast("min_clearance_m", summary.min_clearance_m, expect.min_clearance_m);
+  check.AtLeast("min_road_margin_m", summary.min_road_margin_m, expect.min_road_margin_m);
+  check.AtMost("rms_lateral_error_m", summary.rms_lateral_error_m.value_or(0.0),
                expect.max_rms_lateral_error_m);
-  judge.AtMost("deadline_misses", summary.deadline_misses, expect.max_deadline_misses);
+  check.AtMost("deadline_misses", summary.deadline_misses, expect.max_deadline_misses);
   return summary;
 }
 

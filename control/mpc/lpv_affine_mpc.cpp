@@ -5,11 +5,11 @@
 
 namespace control {
 
-LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& course,
+LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& profile,
                            const LpvAffineSettings& settings)
     : settings_(settings),
       model_(BlendedModel(vehicle), settings.t_s),
-      task_(vehicle, course, settings),
+      task_(vehicle, profile, settings),
       qp_(settings.horizon),
       rows_(qp_),
       solver_(settings.horizon, settings.qp),

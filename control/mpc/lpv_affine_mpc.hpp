@@ -4,7 +4,7 @@
 //   z_{i+1} = F(ẑ_i, û_i) + A_i (z_i − ẑ_i) + B_i (u_i − û_i)        A = ∂F/∂z, B = ∂F/∂u
 //
 // with F of control/vehicle/discrete_model.hpp. So a change of heading moves the vehicle inside the QP, too, and one QP
-// is one iteration of sequential quadratic programming. The controller knows the course itself and needs no reference
+// is one iteration of sequential quadratic programming. The controller knows the road itself and needs no reference
 // window (control/road/progress_reference.hpp).
 //
 //   min   Σ |z_i − z_ref_i|²_Q + |u_i − u_ref_i|²_R + |Δu_i|²_R_rate + penalties
@@ -36,8 +36,8 @@ namespace control {
 
 class LpvAffineMpc final : public Controller {
  public:
-  // `course` must outlive the controller.
-  LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& course,
+  // `profile` must outlive the controller.
+  LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& profile,
                const LpvAffineSettings& settings);
 
   [[nodiscard]] int horizon() const override { return settings_.horizon; }

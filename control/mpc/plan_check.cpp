@@ -35,16 +35,16 @@ double Cross(const Vector2d& a, const Vector2d& b) {
 
 }  // namespace
 
-PlanCheck::PlanCheck(const PlanCheckSettings& settings, const RoadProfile& course)
-    : settings_(settings), model_(BlendedModel(settings.vehicle), settings.t_s), course_(&course) {}
+PlanCheck::PlanCheck(const PlanCheckSettings& settings, const RoadProfile& profile)
+    : settings_(settings), model_(BlendedModel(settings.vehicle), settings.t_s), profile_(&profile) {}
 
 // The distance of the outermost corner beyond the road's edge [m]; negative if all corners are on it. Updates `s`.
 double PlanCheck::OffRoad(const State& z, double& s) const {
-  s = course_->Project(Position(z), s).s;
+  s = profile_->Project(Position(z), s).s;
   double out = -std::numeric_limits<double>::infinity();
   for (const Vector2d& corner : settings_.footprint.Corners()) {
-    const double lateral = course_->Project(CornerAt(z, corner), s).lateral;
-    out = std::max({out, lateral - course_->road().left, course_->road().right - lateral});
+    const double lateral = profile_->Project(CornerAt(z, corner), s).lateral;
+    out = std::max({out, lateral - profile_->road().left, profile_->road().right - lateral});
   }
   return out;
 }

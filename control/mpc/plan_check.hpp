@@ -24,13 +24,13 @@ struct PlanCheckSettings {
 
 class PlanCheck {
  public:
-  // `course` must outlive the check.
-  PlanCheck(const PlanCheckSettings& settings, const RoadProfile& course);
+  // `profile` must outlive the check.
+  PlanCheck(const PlanCheckSettings& settings, const RoadProfile& profile);
 
   // Returns the first violation if the vehicle at `z` is given these inputs and the obstacles keep their velocities:
   // contact with an obstacle (amount: roughly how far the rectangle reaches into it [m]), a corner off the road [m], or
   // more acceleration than friction allows [m/s²]. Road and friction count only where the excess is more than 0.02 m or
-  // 0.3 m/s² above the initial one, which is not the plan's fault. The search for the vehicle's place on the course
+  // 0.3 m/s² above the initial one, which is not the plan's fault. The search for the vehicle's place on the road
   // begins at `s` [m]. Does not allocate.
   [[nodiscard]] std::optional<ConstraintViolation> Validate(const State& z, double s,
                                                             std::span<const Input> u,
@@ -43,7 +43,7 @@ class PlanCheck {
 
   PlanCheckSettings settings_;
   DiscreteModel model_;
-  const RoadProfile* course_;
+  const RoadProfile* profile_;
 };
 
 }  // namespace control

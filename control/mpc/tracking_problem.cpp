@@ -14,16 +14,16 @@ using Eigen::Vector2d;
 
 }  // namespace
 
-TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& course,
+TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                                  const LpvAffineSettings& settings)
     : settings_(settings),
-      course_(&course),
-      progress_(vehicle, course, settings.t_s),
+      profile_(&profile),
+      progress_(vehicle, profile, settings.t_s),
       passing_({.footprint = settings.footprint,
                 .margin = settings.obstacle_margin,
                 .road_margin = settings.road_margin,
                 .grip = Grip(settings)},
-               course) {
+               profile) {
   const auto N = static_cast<std::size_t>(settings.horizon);
   z_ref_.assign(N + 1, State::Zero());
   u_ref_.assign(N, Input::Zero());
@@ -39,14 +39,14 @@ void TrackingProblem::Reset() {
 }
 
 void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> obstacles) {
-  constexpr double kStandstill = 0.15;  // [m/s]
-  constexpr double kWay = 0.3;          // [m]
+  constexpr double kStandstill = 0.15;    // [m/s]
+  constexpr double kLeastDistance = 0.3;  // [m]
   obstacles_ = obstacles;
   Place(z, s);
   DecidePassing();
   progress_.Fill(s_, z_[kUpsilon], stops_, z_ref_, u_ref_, s_ref_);
-  const bool nowhere = s_ref_.back() - s_ref_.front() < kWay;
-  waiting_ = nowhere && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
+  const bool nowhere_to_go = s_ref_.back() - s_ref_.front() < kLeastDistance;
+  waiting_ = nowhere_to_go && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
 }
 
 void TrackingProblem::Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const {
@@ -63,11 +63,11 @@ void TrackingProblem::Hold(const Input& u_previous, std::span<State> z, std::spa
 }
 
 void TrackingProblem::Place(const State& z, double s) {
-  const RouteProjection place = course_->Project(Position(z), s);
+  const RouteProjection place = profile_->Project(Position(z), s);
   s_ = place.s;
   lateral_ = place.lateral;
   z_ = z;
-  z_[kPsi] = UnwrapAngle(z[kPsi], course_->At(s_).psi);
+  z_[kPsi] = UnwrapAngle(z[kPsi], profile_->At(s_).psi);
 }
 
 void TrackingProblem::DecidePassing() {
@@ -91,8 +91,8 @@ bool TrackingProblem::BuildConstraints(std::span<const State> z_hat) {
   bool fits = obstacles_.size() <= PassingPlanner::kMostObstacles;
   double s = s_;
   for (std::size_t i = 1; i < z_hat.size(); ++i) {
-    s = course_->Project(Position(z_hat[i]), s).s;
-    const RoutePoint beside = course_->At(s);
+    s = profile_->Project(Position(z_hat[i]), s).s;
+    const RoutePoint beside = profile_->At(s);
     counts_[i] = 0;
     fits &= AddRoad(i, z_hat[i], beside);
     fits &= AddObstacles(i, z_hat[i], beside.psi);
@@ -108,19 +108,19 @@ bool TrackingProblem::Add(std::size_t i, const BodyRow& row) {
 
 // For the middles of the front and the rear end; the corners are half a width beside them.
 bool TrackingProblem::AddRoad(std::size_t i, const State& z_hat, const RoutePoint& beside) {
-  const Vector2d left = LeftOf(beside.psi), course(beside.X, beside.Y);
+  const Vector2d left = LeftOf(beside.psi), point(beside.X, beside.Y);
   const double inside = settings_.footprint.half_width + settings_.road_margin;
   bool fits = true;
   for (const int end : {0, 1}) {
     const Vector2d fixed(end == 0 ? settings_.footprint.front : -settings_.footprint.rear, 0.0);
-    // The course bends away from its tangent.
-    const double ahead = Along(beside.psi).dot(Position(z_hat) + Rotate(z_hat[kPsi], fixed) - course);
-    const double middle = left.dot(course) + 0.5 * beside.curvature * ahead * ahead;
+    // The road bends away from its tangent.
+    const double ahead = Along(beside.psi).dot(Position(z_hat) + Rotate(z_hat[kPsi], fixed) - point);
+    const double middle = left.dot(point) + 0.5 * beside.curvature * ahead * ahead;
     fits &=
         Add(i, {.normal = left,
                 .fixed = fixed,
-                .lo = middle + course_->road().right + inside,
-                .hi = middle + course_->road().left - inside,
+                .lo = middle + profile_->road().right + inside,
+                .hi = middle + profile_->road().left - inside,
                 .constraint = {.kind = ConstraintKind::kRoad, .index = end, .step = static_cast<int>(i)}});
   }
   return fits;

@@ -36,11 +36,11 @@ class TrackingProblem {
  public:
   static constexpr std::size_t kMostRows = 16;  // per step
 
-  // `course` must outlive the problem.
-  TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& course,
+  // `profile` must outlive the problem.
+  TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                   const LpvAffineSettings& settings);
 
-  // `s`: where the search for the vehicle's place on the course begins [m].
+  // `s`: where the search for the vehicle's place on the road begins [m].
   void Begin(const State& z, double s, std::span<const Obstacle> obstacles);
   // False if a step needs more than kMostRows rows or there are more than PassingPlanner::kMostObstacles obstacles:
   // then no plan may be made.
@@ -48,7 +48,7 @@ class TrackingProblem {
   // Forgets all decisions.
   void Reset();
 
-  [[nodiscard]] const State& z() const { return z_; }  // as given to Begin, but ψ within π of the course's
+  [[nodiscard]] const State& z() const { return z_; }  // as given to Begin, but ψ within π of the road's
   // True (almost) at standstill with nowhere to go; hysteresis keeps noise from ending it.
   [[nodiscard]] bool waiting() const { return waiting_; }
   // Fills in the plan of a waiting vehicle: the brake holds, the wheels stay as they are.
@@ -68,13 +68,13 @@ class TrackingProblem {
                                                  const State& z_hat, double psi_road) const;
 
   LpvAffineSettings settings_;
-  const RoadProfile* course_;
+  const RoadProfile* profile_;
   ProgressReference progress_;
   PassingPlanner passing_;
 
   State z_ = State::Zero();
-  double s_ = 0.0;        // arc length on the course [m]
-  double lateral_ = 0.0;  // offset from the course, left positive [m]
+  double s_ = 0.0;        // arc length on the road [m]
+  double lateral_ = 0.0;  // offset from the road, left positive [m]
   bool waiting_ = false;
   std::span<const Obstacle> obstacles_;
   std::span<const PassingDecision> decisions_;

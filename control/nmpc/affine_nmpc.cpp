@@ -5,12 +5,12 @@
 
 namespace control {
 
-AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& course,
+AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& profile,
                        const LpvAffineSettings& problem, const AffineNmpcSettings& settings)
     : settings_(settings),
       trust_region_(problem.trust_radius),
       model_(BlendedModel(vehicle), problem.t_s),
-      task_(vehicle, course, problem),
+      task_(vehicle, profile, problem),
       problem_(vehicle, problem),
       // No scaling: the penalties would scale the cost down and change the unit of the tolerance. With penalties this
       // large, a small μ at a cold start takes up to four times the iterations.

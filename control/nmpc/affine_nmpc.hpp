@@ -37,9 +37,9 @@ struct AffineNmpcSettings {
 
 class AffineNmpc final : public Controller {
  public:
-  // `course` must outlive this object. The trust region, iterations and qp of `problem` have no meaning here. Throws
+  // `profile` must outlive this object. The trust region, iterations and qp of `problem` have no meaning here. Throws
   // std::runtime_error if Ipopt refuses its options.
-  AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& course, const LpvAffineSettings& problem,
+  AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& profile, const LpvAffineSettings& problem,
              const AffineNmpcSettings& settings = {});
 
   [[nodiscard]] int horizon() const override { return problem_.horizon(); }

@@ -37,8 +37,8 @@ PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles
                                              double upsilon, PassingDecision& decision) const {
   constexpr double kSlowest = 3.0;  // lowest speed assumed for the time until a meeting [m/s]
   const Obstacle& obstacle = obstacles[index];
-  const RouteProjection place = course_->Project({obstacle.X, obstacle.Y}, s);
-  const double psi = course_->At(place.s).psi;
+  const RouteProjection place = profile_->Project({obstacle.X, obstacle.Y}, s);
+  const double psi = profile_->At(place.s).psi;
   const Eigen::Vector2d along = Along(psi), left = LeftOf(psi);
   const Eigen::Vector2d velocity(obstacle.velocity_X, obstacle.velocity_Y);
   decision = {.passage = Passage::kIgnored,
@@ -54,7 +54,7 @@ PassingPlanner::Meeting PassingPlanner::Meet(std::span<const Obstacle> obstacles
   };
   const bool passed = place.s + decision.half_length < behind && decision.speed <= upsilon;
   // A vehicle that follows the obstacle at its speed never meets it, but would catch up if the obstacle were ignored.
-  const double wanted = std::max(upsilon, course_->At(s).speed);
+  const double wanted = std::max(upsilon, profile_->At(s).speed);
   if (passed || !(time_at(wanted) <= settings_.look_ahead)) return {.index = index, .time = -1.0};
   const double time = std::min(time_at(upsilon), settings_.look_ahead);
   return {.index = index,
@@ -106,8 +106,8 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
             [](const Meeting& a, const Meeting& b) { return a.lateral < b.lateral; });
   const double half_width = settings_.footprint.half_width;
   const double keep = half_width + settings_.margin;
-  const double right_edge = course_->road().right + half_width + settings_.road_margin;
-  const double left_edge = course_->road().left - half_width - settings_.road_margin;
+  const double right_edge = profile_->road().right + half_width + settings_.road_margin;
+  const double left_edge = profile_->road().left - half_width - settings_.road_margin;
   // The vehicle can stop within the remaining distance at 90 % of the grip; at a walking pace, it can stop anywhere.
   const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, kStoppedWithin);
   const double margins = settings_.margin + std::min(settings_.margin, settings_.road_margin);

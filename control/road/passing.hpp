@@ -36,8 +36,8 @@ class PassingPlanner {
  public:
   static constexpr std::size_t kMostObstacles = 16;
 
-  PassingPlanner(const PassingSettings& settings, const RoadProfile& course)
-      : settings_(settings), course_(&course) {}
+  PassingPlanner(const PassingSettings& settings, const RoadProfile& profile)
+      : settings_(settings), profile_(&profile) {}
 
   // Returns one decision per obstacle, in the same order; the span is valid until the next call. The vehicle is at
   // arc length `s`, `lateral` left of the road profile, and drives at `upsilon`.
@@ -66,7 +66,7 @@ class PassingPlanner {
   [[nodiscard]] Passage& Kept(const Obstacle& obstacle);
 
   PassingSettings settings_;
-  const RoadProfile* course_;
+  const RoadProfile* profile_;
   std::array<Passage, kMostObstacles> kept_{};  // indexed by id modulo the size
   std::array<Meeting, kMostObstacles> meetings_{};
   std::array<PassingDecision, kMostObstacles> decisions_{};

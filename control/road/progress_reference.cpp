@@ -19,11 +19,11 @@ constexpr double kFallBack = 0.5;
 }  // namespace
 
 double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> stops) const {
-  double speed = course_->At(s).speed;
+  double speed = profile_->At(s).speed;
   for (const StopLine& stop : stops) {
     const double distance = stop.s + stop.speed * t - s;
     const double over =
-        distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, course_->limits().deceleration);
+        distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, profile_->limits().deceleration);
     speed = std::min(speed, std::max(stop.speed + over, 0.0));
   }
   return speed;
@@ -32,7 +32,7 @@ double ProgressReference::SpeedAt(double s, double t, std::span<const StopLine> 
 // The vehicle brakes a little harder than comfortable to catch up with a profile, and as hard as necessary before a
 // near stop line.
 double ProgressReference::Deceleration(double s, double upsilon, std::span<const StopLine> stops) const {
-  const SpeedLimits& limits = course_->limits();
+  const SpeedLimits& limits = profile_->limits();
   double hardest = kHarder * limits.deceleration;
   for (const StopLine& stop : stops) {
     const double closing = std::max(upsilon - stop.speed, 0.0);
@@ -44,14 +44,14 @@ double ProgressReference::Deceleration(double s, double upsilon, std::span<const
 
 void ProgressReference::Fill(double s_0, double upsilon, std::span<const StopLine> stops, std::span<State> z,
                              std::span<Input> u, std::span<double> s) const {
-  const double up = course_->limits().acceleration * t_s_;
+  const double up = profile_->limits().acceleration * t_s_;
   const double down = Deceleration(s_0, upsilon, stops) * t_s_;
 
   double place = s_0;
   double speed = std::clamp(SpeedAt(place, 0.0, stops), std::max(upsilon - kSpeedTolerance, 0.0),
                             std::max(upsilon, 0.0) + kSpeedTolerance);
   for (std::size_t i = 0; i < z.size(); ++i) {
-    const RoutePoint point = course_->At(place);
+    const RoutePoint point = profile_->At(place);
     const double lever = SideslipPerCurvature(vehicle_, speed);
     z[i] << point.X, point.Y, speed, point.curvature * speed * lever, point.psi - point.curvature * lever,
         point.curvature * speed;

@@ -21,8 +21,8 @@ struct StopLine {
 
 class ProgressReference {
  public:
-  ProgressReference(const VehicleParameters& vehicle, const RoadProfile& course, double t_s)
-      : vehicle_(vehicle), course_(&course), t_s_(t_s) {}
+  ProgressReference(const VehicleParameters& vehicle, const RoadProfile& profile, double t_s)
+      : vehicle_(vehicle), profile_(&profile), t_s_(t_s) {}
 
   // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
   // at the arc length s_0 and at about the speed `upsilon` [m/s].
@@ -34,7 +34,7 @@ class ProgressReference {
   [[nodiscard]] double SpeedAt(double s, double t, std::span<const StopLine> stops) const;
 
   VehicleParameters vehicle_;
-  const RoadProfile* course_;
+  const RoadProfile* profile_;
   double t_s_;
 };
 

@@ -20,7 +20,7 @@ TEST(LatencyHistogram, EmptyTellsNothing) {
   EXPECT_EQ(histogram.Percentile(0.99), 0ns);
 }
 
-TEST(LatencyHistogram, PercentilesAreWithinTheToldErrorAboveThoseOfTheSortedTimes) {
+TEST(LatencyHistogram, PercentilesAreWithinTheStatedErrorAboveThoseOfTheSortedTimes) {
   std::mt19937_64 random(1);
   std::lognormal_distribution<double> distribution(12.0, 4.0);  // from a few ns to minutes
   LatencyHistogram histogram;
@@ -34,9 +34,9 @@ TEST(LatencyHistogram, PercentilesAreWithinTheToldErrorAboveThoseOfTheSortedTime
   EXPECT_EQ(histogram.max(), times.back());
   for (int rank = 1; rank <= 20000; rank += 37) {
     const Time exact = times[static_cast<std::size_t>(rank - 1)];
-    const Time told = histogram.Percentile(rank / 20000.0 - 1e-9);
-    EXPECT_GE(told, exact);
-    EXPECT_LE(ToSeconds(told), ToSeconds(exact) * (1.0 + LatencyHistogram::kRelativeError)) << rank;
+    const Time reported = histogram.Percentile(rank / 20000.0 - 1e-9);
+    EXPECT_GE(reported, exact);
+    EXPECT_LE(ToSeconds(reported), ToSeconds(exact) * (1.0 + LatencyHistogram::kRelativeError)) << rank;
   }
 }
 

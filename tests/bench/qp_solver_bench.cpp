@@ -13,11 +13,11 @@ OcpQp<8, 2> Read(const std::string& name) {
   return tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build();
 }
 
-void Solve(benchmark::State& state, const OcpQp<8, 2>& qp, const OcpQpPoint<8, 2>* guess) {
+void Solve(benchmark::State& state, const OcpQp<8, 2>& qp, const OcpQpPoint<8, 2>* warm_start) {
   OcpQpSolver<8, 2> solver(qp.horizon());
   QpResult result;
   for (auto _ : state) {
-    result = solver.Solve(qp, guess);
+    result = solver.Solve(qp, warm_start);
     benchmark::DoNotOptimize(result);
   }
   if (result.status != SolverStatus::kSolved) state.SkipWithError("not solved");

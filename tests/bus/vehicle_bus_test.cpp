@@ -256,7 +256,7 @@ TEST(VehicleBus, OwnFramesAreInRangeUntilOneOfTheirValuesIsNot) {
   EXPECT_TRUE(bus.InRange(raw.id, raw.Payload()));
 }
 
-TEST(VehicleBus, MessagesAreToldWithIdPeriodAndDistinctDataIds) {
+TEST(VehicleBus, MessagesAreListedWithIdPeriodAndDistinctDataIds) {
   const VehicleBus bus;
   ASSERT_EQ(bus.messages().size(), 13u);
   std::set<std::uint16_t> data_ids;

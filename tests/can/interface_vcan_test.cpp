@@ -27,7 +27,7 @@ class Interface : public testing::Test {
   void TearDown() override { test_support::Run({"ip", "link", "del", "dev", "vcan7"}); }
 };
 
-TEST_F(Interface, DownIsToldOnceAndUpNeedsNothing) {
+TEST_F(Interface, DownIsReportedOnceAndUpNeedsNothing) {
   Socket sender("vcan7");
   Socket receiver("vcan7");
   Received received;
@@ -42,7 +42,7 @@ TEST_F(Interface, DownIsToldOnceAndUpNeedsNothing) {
   EXPECT_EQ(received.frame.id, 2U);
 }
 
-TEST_F(Interface, OpenedWhileDownIsToldAtTheFirstReceive) {
+TEST_F(Interface, OpenedWhileDownIsReportedAtTheFirstReceive) {
   Ip({"link", "set", "vcan7", "down"});
   Socket socket("vcan7");
   Received received;
@@ -85,7 +85,7 @@ TEST_F(Interface, ReopenOfASocketThatIsBoundChangesNothing) {
   EXPECT_EQ(Drain(receiver).size(), 1U);
 }
 
-TEST_F(Interface, FullTransmitQueueIsTold) {
+TEST_F(Interface, FullTransmitQueueIsReported) {
   const auto outcome =
       test_support::Run({"tc", "qdisc", "add", "dev", "vcan7", "root", "pfifo", "limit", "0"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;

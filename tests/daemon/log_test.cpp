@@ -8,7 +8,7 @@
 namespace lpvmpcd {
 namespace {
 
-TEST(Log, JournalIsToldByDeviceAndInode) {
+TEST(Log, JournalIsRecognisedByDeviceAndInode) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
   struct stat status {};

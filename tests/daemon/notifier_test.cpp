@@ -32,13 +32,13 @@ class NotifierTest : public testing::Test {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
   }
   // All messages since the last call.
-  std::vector<std::string> Told() const {
-    std::vector<std::string> told;
+  std::vector<std::string> Messages() const {
+    std::vector<std::string> messages;
     char text[1024];
     for (ssize_t size = 0; (size = ::recv(socket_, text, sizeof(text), MSG_DONTWAIT)) >= 0;) {
-      told.emplace_back(text, static_cast<std::size_t>(size));
+      messages.emplace_back(text, static_cast<std::size_t>(size));
     }
-    return told;
+    return messages;
   }
 
   test_support::TempDir folder_;
@@ -51,13 +51,13 @@ TEST_F(NotifierTest, FeedsTheWatchdogAtLeastTwiceInItsPeriodAndOnlyByCycles) {
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   Notifier notifier;
   notifier.Ready();
-  EXPECT_EQ(Told(), std::vector<std::string>{"READY=1"});
+  EXPECT_EQ(Messages(), std::vector<std::string>{"READY=1"});
   // Cycle times up to the slowest timeout that leaves room for two feeds in a watchdog period.
   for (const base::Time cycle : {base::Time(10ms), base::Time(75ms), base::Time(250ms)}) {
     base::Time last{};
     for (base::Time now = 0s; now <= 10s; now += cycle) {
       notifier.Cycle({}, latencies_, now);
-      for (const std::string& text : Told()) {
+      for (const std::string& text : Messages()) {
         if (text != "WATCHDOG=1") continue;
         EXPECT_LE(now - last, 500ms);
         last = now;
@@ -71,9 +71,9 @@ TEST_F(NotifierTest, FeedsTheWatchdogAtLeastTwiceInItsPeriodAndOnlyByCycles) {
 TEST_F(NotifierTest, WithoutAWatchdogThereIsNothingToFeed) {
   Notifier notifier;
   notifier.Cycle({}, latencies_, 1s);
-  const auto told = Told();
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_THAT(told.front(), StartsWith("STATUS=Init; no fault; 0 cycles"));
+  const auto messages = Messages();
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_THAT(messages.front(), StartsWith("STATUS=Init; no fault; 0 cycles"));
 }
 
 TEST_F(NotifierTest, StatusTellsLatenciesAndWhatTheKernelRefused) {
@@ -81,29 +81,29 @@ TEST_F(NotifierTest, StatusTellsLatenciesAndWhatTheKernelRefused) {
   latencies_.cycle.Add(2ms);
   latencies_.step.Add(1ms);
   notifier.Cycle({}, latencies_, 1s);
-  EXPECT_THAT(Told().front(), testing::AllOf(HasSubstr("latency p99 2.00 ms, max 2.00 ms"),
-                                             HasSubstr("step p99 1.00 ms"), Not(HasSubstr("real time"))));
+  EXPECT_THAT(Messages().front(), testing::AllOf(HasSubstr("latency p99 2.00 ms, max 2.00 ms"),
+                                                 HasSubstr("step p99 1.00 ms"), Not(HasSubstr("real time"))));
   notifier.SetRemark("real time: refused cpu 7");
   notifier.Cycle({}, latencies_, 2s);
-  EXPECT_THAT(Told().front(), testing::EndsWith("; real time: refused cpu 7"));
+  EXPECT_THAT(Messages().front(), testing::EndsWith("; real time: refused cpu 7"));
 }
 
 TEST_F(NotifierTest, StatusComesAtOnceWithAChangeAndOtherwiseOnceASecond) {
   Notifier notifier;
   notifier.Cycle({}, latencies_, 1s);
-  EXPECT_EQ(Told().size(), 1U);
+  EXPECT_EQ(Messages().size(), 1U);
   notifier.Cycle({}, latencies_, 1500ms);
-  EXPECT_EQ(Told().size(), 0U);
+  EXPECT_EQ(Messages().size(), 0U);
   notifier.Cycle({.mode = bus::Mode::kStandby}, latencies_, 1600ms);
-  EXPECT_EQ(Told().size(), 1U);
+  EXPECT_EQ(Messages().size(), 1U);
   notifier.Cycle({.mode = bus::Mode::kStandby, .fault = bus::FaultCode::kOffRoute}, latencies_, 1700ms);
-  EXPECT_THAT(Told().front(), StartsWith("STATUS=Standby; not on the route or too slow"));
+  EXPECT_THAT(Messages().front(), StartsWith("STATUS=Standby; not on the route or too slow"));
 }
 
 TEST_F(NotifierTest, ReloadTellsItsTime) {
   Notifier notifier;
   notifier.Reloading();
-  EXPECT_THAT(Told().front(), testing::MatchesRegex("RELOADING=1\nMONOTONIC_USEC=[0-9]+"));
+  EXPECT_THAT(Messages().front(), testing::MatchesRegex("RELOADING=1\nMONOTONIC_USEC=[0-9]+"));
 }
 
 }  // namespace

@@ -277,7 +277,7 @@ TEST(Parser, SemanticErrorsTellPlaceAndValue) {
   EXPECT_EQ(ErrorOf(WithSignals("SG_ A : 0|8" + tail + "SG_MUL_VAL_ 100 A B 0-0;")),
             "a.dbc:2:5: signal A is multiplexed by B, which is not in message M");
   EXPECT_EQ(ErrorOf(WithSignals("SG_ A : 0|8" + tail + "SG_MUL_VAL_ 100 A A 0-0;")),
-            "a.dbc:2:5: the multiplexors of signal A go in circles");
+            "a.dbc:2:5: the multiplexors of signal A are circular");
   EXPECT_THAT(ErrorOf("BO_ 4294967295 M: 8 N"), HasSubstr("has more than 29 bits"));
 }
 

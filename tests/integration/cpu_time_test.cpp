@@ -53,7 +53,7 @@ TEST(CpuTime, DaemonAt20HzTakesLessThanAHundredthOfACoreAnd20Megabytes) {
   const double elapsed = std::chrono::duration<double, std::nano>(steady_clock::now() - begin).count();
   const double percent = 100.0 * (CpuTime(daemon.pid()) - used) / elapsed;
   const double memory =
-      std::stod(test_support::KernelSays(daemon.pid(), "VmHWM")) / 1024.0;  // peak resident memory [MB]
+      std::stod(test_support::ProcStatus(daemon.pid(), "VmHWM")) / 1024.0;  // peak resident memory [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of a core, " << memory << " MB\n";
   EXPECT_EQ(vehicle.Wait(60s), 0) << vehicle.Stderr();  // the drive was completed
   EXPECT_GT(percent, 0.0);

@@ -68,7 +68,7 @@ class DaemonOnBus : public testing::Test {
       const can::Frame& frame = received.frame;
       const auto message = bus_.Decode(frame.id, frame.Payload());
       if (!message) {
-        ADD_FAILURE() << "a frame that is none of ours: " << frame.id;
+        ADD_FAILURE() << "a frame of another sender: " << frame.id;
         continue;
       }
       const bus::E2eCheck check = bus_.Check(frame.id, frame.Payload());

@@ -44,17 +44,17 @@ TEST_F(DaemonService, GetsTheRealTimeThatItAsksForAndSaysSo) {
   Configure("[realtime]\nfifo_priority = 10\nlock_memory = true\ncpus = [0]\n");
   StartDaemon();
   EXPECT_EQ(::sched_getscheduler(daemon_->pid()) == (SCHED_FIFO | SCHED_RESET_ON_FORK), may);
-  EXPECT_EQ(test_support::KernelSays(daemon_->pid(), "Cpus_allowed_list"), "0");
+  EXPECT_EQ(test_support::ProcStatus(daemon_->pid(), "Cpus_allowed_list"), "0");
   EXPECT_TRUE(LogSays("real time: cpus 0"));
   if (may) {
     EXPECT_TRUE(LogSays("real time: cpus 0, memory locked, SCHED_FIFO 10"));
     EXPECT_THAT(daemon_->Stderr(), Not(HasSubstr("refused")));
-    EXPECT_GT(std::stoi(test_support::KernelSays(daemon_->pid(), "VmLck")), 1000);
+    EXPECT_GT(std::stoi(test_support::ProcStatus(daemon_->pid(), "VmLck")), 1000);
   }
   Engage();
   EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);
-  EXPECT_LT(std::stoi(test_support::KernelSays(daemon_->pid(), "VmRSS")), 20 * 1024) << "kB";
-  std::printf("resident with locked memory: %s\n", test_support::KernelSays(daemon_->pid(), "VmRSS").c_str());
+  EXPECT_LT(std::stoi(test_support::ProcStatus(daemon_->pid(), "VmRSS")), 20 * 1024) << "kB";
+  std::printf("resident with locked memory: %s\n", test_support::ProcStatus(daemon_->pid(), "VmRSS").c_str());
 }
 
 TEST_F(DaemonService, RunsWithoutTheRealTimeThatItIsRefusedAndNamesIt) {

@@ -67,12 +67,12 @@ class DrivingLoopTest : public testing::Test {
   bus::VehicleBus bus_;
   FakeController controller_;
   control::TimeReference reference_{StraightRoute(), kPeriod};
-  control::RoadProfile course_{StraightOn(), kRoad, {}};
+  control::RoadProfile profile_{StraightOn(), kRoad, {}};
   control::PlanCheck check_{{.vehicle = {},
                              .footprint = {.front = 1.95, .rear = 2.3, .half_width = 0.9},
                              .mu = 0.7,
                              .t_s = kPeriod},
-                            course_};
+                            profile_};
   LoopSettings settings_;
   ProgressController by_progress_{controller_, reference_};
   ControlLoop loop_{settings_, bus_, by_progress_, reference_, kRoad, [] { return base::Time{}; }, &check_};
@@ -125,7 +125,7 @@ TEST_F(DrivingLoopTest, RejectedForLongTheVehicleIsStopped) {
   EXPECT_EQ(loop_.report().last_refusal, bus::FaultCode::kPlanRejected);
 }
 
-TEST_F(DrivingLoopTest, LesserEvilIsFollowedAndToldOf) {
+TEST_F(DrivingLoopTest, LesserEvilIsFollowedAndReported) {
   PlanStraight();
   Engage();
   PutObstacle(kThirdStep);

@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-void Tell(ObstacleAssembler& assembler, std::uint8_t id, double X) {
+void Report(ObstacleAssembler& assembler, std::uint8_t id, double X) {
   assembler.Update(bus::ObstaclePosition{.object_id = id, .X = X, .Y = -X});
   assembler.Update(bus::ObstacleShape{.object_id = id,
                                       .semi_axis_x = 2.0,
@@ -17,11 +17,11 @@ void Tell(ObstacleAssembler& assembler, std::uint8_t id, double X) {
   assembler.Update(bus::ObstacleMotion{.object_id = id, .velocity_X = 5.0, .velocity_Y = 6.0});
 }
 
-TEST(ObstacleAssembler, ListTakesOverAllThatWasToldSinceTheLastOne) {
+TEST(ObstacleAssembler, ListTakesOverAllObjectsSinceTheLastOne) {
   ObstacleAssembler assembler;
   EXPECT_EQ(assembler.Age(1s), base::Time::max());
-  Tell(assembler, 7, 10.0);
-  Tell(assembler, 2, 20.0);
+  Report(assembler, 7, 10.0);
+  Report(assembler, 2, 20.0);
   EXPECT_TRUE(assembler.obstacles().empty());
   EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 2}, 1s));
   ASSERT_EQ(assembler.obstacles().size(), 2U);
@@ -44,17 +44,17 @@ TEST(ObstacleAssembler, ListTakesOverAllThatWasToldSinceTheLastOne) {
 
 TEST(ObstacleAssembler, ListThatDoesNotFitLeavesTheOldObstacles) {
   ObstacleAssembler assembler;
-  Tell(assembler, 1, 10.0);
+  Report(assembler, 1, 10.0);
   ASSERT_TRUE(assembler.Update(bus::ObstacleList{.count = 1}, 1s));
 
-  Tell(assembler, 1, 11.0);
+  Report(assembler, 1, 11.0);
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 2}, 2s));  // one too few
-  Tell(assembler, 1, 12.0);
-  Tell(assembler, 2, 12.0);
+  Report(assembler, 1, 12.0);
+  Report(assembler, 2, 12.0);
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // one too many
   assembler.Update(bus::ObstaclePosition{.object_id = 1, .X = 13.0});
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // shape and motion missing
-  Tell(assembler, 1, 14.0);
+  Report(assembler, 1, 14.0);
   assembler.Update(bus::ObstaclePosition{.object_id = 3});
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 2s));  // an incomplete one as well
 
@@ -63,7 +63,7 @@ TEST(ObstacleAssembler, ListThatDoesNotFitLeavesTheOldObstacles) {
   EXPECT_EQ(assembler.rejected(), 4U);
   EXPECT_EQ(assembler.Age(2s), 1s);
 
-  Tell(assembler, 1, 15.0);
+  Report(assembler, 1, 15.0);
   EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 1}, 3s));  // nothing is left of the rejected ones
   EXPECT_EQ(assembler.obstacles()[0].X, 15.0);
 }
@@ -79,7 +79,7 @@ TEST(ObstacleAssembler, ObjectWithoutExtentIsIncomplete) {
 TEST(ObstacleAssembler, MoreObjectsThanItHoldsAreRefusedAsAWhole) {
   ObstacleAssembler assembler;
   for (std::size_t i = 0; i <= ObstacleAssembler::kMaxObstacles; ++i) {
-    Tell(assembler, static_cast<std::uint8_t>(i), 1.0);
+    Report(assembler, static_cast<std::uint8_t>(i), 1.0);
   }
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = ObstacleAssembler::kMaxObstacles}, 1s));
   EXPECT_TRUE(assembler.obstacles().empty());

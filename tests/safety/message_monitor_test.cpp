@@ -202,7 +202,7 @@ TEST_F(MessageMonitorTest, RepeatedCounterChangesNoValue) {
   EXPECT_EQ(monitor_.Age(RxMessage::kPose, now_), 10ms);
 }
 
-TEST_F(MessageMonitorTest, TwoLostFramesAreAcceptedAndTold) {
+TEST_F(MessageMonitorTest, TwoLostFramesAreAcceptedAndReported) {
   EXPECT_TRUE(Accepts(Pose(3)));
   const auto verdict = monitor_.Check(Pose(6), now_);
   EXPECT_EQ(std::get<Accepted>(verdict).lost, 2);
@@ -231,7 +231,7 @@ TEST_F(MessageMonitorTest, OneMessagesCounterIsNotAnothers) {
   EXPECT_TRUE(Accepts(Pose(4)));
 }
 
-TEST_F(MessageMonitorTest, EveryAdvanceOfTheCounterIsToldOrRefused) {
+TEST_F(MessageMonitorTest, EveryAdvanceOfTheCounterIsReportedOrRefused) {
   for (int max_lost = 0; max_lost <= 13; ++max_lost) {
     for (int from = 0; from < 15; ++from) {
       for (int advance = 0; advance < 15; ++advance) {

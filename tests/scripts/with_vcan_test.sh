@@ -29,7 +29,7 @@ WaitFor() { # WaitFor COMMAND...: repeats COMMAND until it succeeds, for at most
     "$@" && return
     sleep 0.1
   done
-  echo "FAILED: waited in vain for: $*" >&2
+  echo "FAILED: timed out waiting for: $*" >&2
   exit 1
 }
 

@@ -60,7 +60,7 @@ TEST_F(Drive, DemonstrationMeetsItsExpectationsWithLittleMemory) {
   // the next one: the share may be 0, and only the daemon's start is certain to have been counted.
   const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
   const double memory =
-      std::stod(test_support::KernelSays(pid, "VmHWM")) / 1024.0;  // peak resident memory [MB]
+      std::stod(test_support::ProcStatus(pid, "VmHWM")) / 1024.0;  // peak resident memory [MB]
   std::cout << "daemon at 20 Hz in the demonstration: " << percent << " % of this processor, " << memory
             << " MB\n";
   EXPECT_GT(used, 0);

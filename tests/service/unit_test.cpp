@@ -87,7 +87,7 @@ TEST_F(Unit, IsGrantedTheRealTimeThatItsConfigurationAsksFor) {
   EXPECT_TRUE(Says(kDaemon, "real time: "));
   const auto pid = static_cast<pid_t>(Number(kDaemon, "MainPID"));
   EXPECT_EQ(::sched_getscheduler(pid) & ~SCHED_RESET_ON_FORK, SCHED_FIFO);
-  EXPECT_GT(std::stol(test_support::KernelSays(pid, "VmLck")), 0);
+  EXPECT_GT(std::stol(test_support::ProcStatus(pid, "VmLck")), 0);
   EXPECT_THAT(Property(kDaemon, "StatusText"), testing::Not(HasSubstr("refused")));
 }
 

@@ -11,7 +11,7 @@
 #include "can/socket.hpp"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "tests/sim/fake_controller.hpp"
+#include "tests/sim/fake_daemon.hpp"
 #include "tests/sim/scenario_files.hpp"
 #include "tests/support/process.hpp"
 
@@ -54,7 +54,7 @@ class ControllerOnBus {
   }
 
   bus::VehicleBus bus_;
-  FakeController controller_;
+  FakeDaemon controller_;
   can::Socket socket_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;

@@ -140,7 +140,7 @@ TEST_F(ScenarioTest, WrongInputNamesFileLineKeyAndValue) {
               HasSubstr("key 'obstacle[0].X' = 3 must not be given along with s"));
   EXPECT_THAT(ErrorOf(kObstacle + "X = 5\nY = 3\nlateral = 1\n"), HasSubstr("must not be given without s"));
   EXPECT_THAT(ErrorOf(kObstacle + "s = 5\n" + kObstacle + "s = 50\n"),
-              EndsWith(":9: key 'obstacle[1].id' = 1 is that of an obstacle before"));
+              EndsWith(":9: key 'obstacle[1].id' = 1 is already used by another obstacle"));
   EXPECT_THAT(ErrorOf("[vehicle]\ntyre = \"round\"\n"),
               HasSubstr("must be one of \"linear\", \"saturating\""));
   EXPECT_THAT(ErrorOf("[expect]\nmin_clearence_m = 0\n"), EndsWith("is 'expect.min_clearance_m' meant?"));

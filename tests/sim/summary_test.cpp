@@ -5,7 +5,7 @@
 #include "base/percentile.hpp"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "tests/sim/fake_controller.hpp"
+#include "tests/sim/fake_daemon.hpp"
 #include "tests/sim/scenario_files.hpp"
 
 namespace sim {
@@ -20,7 +20,7 @@ class SummaryTest : public testing::Test {
   template <typename F>
   Summary Drive(const Scenario& scenario, const F& disturb) {
     VirtualVehicle vehicle(scenario, bus_);
-    FakeController controller(bus_, scenario.route);
+    FakeDaemon controller(bus_, scenario.route);
     Recorder recorder(scenario);
     while (!recorder.finished()) {
       disturb(controller, vehicle);
@@ -33,7 +33,7 @@ class SummaryTest : public testing::Test {
     return recorder.Result();
   }
   Summary Drive(const std::string& text) {
-    return Drive(files_.Load(text), [](FakeController&, VirtualVehicle&) {});
+    return Drive(files_.Load(text), [](FakeDaemon&, VirtualVehicle&) {});
   }
 
   ScenarioFiles files_;
@@ -99,7 +99,7 @@ TEST_F(SummaryTest, CornersLeaveTheRoadBeforeTheCentreDoes) {
   EXPECT_EQ(car.off_road_step, 0);
 }
 
-TEST_F(SummaryTest, ContactIsToldWithItsFirstStep) {
+TEST_F(SummaryTest, ContactIsReportedWithItsFirstStep) {
   // The obstacle's near edge is 38.9 m ahead of the centre of gravity, 36.95 m ahead of the front end.
   const std::string drive = "duration = 6.0\n[[obstacle]]\nid = 1\nX = 49.9\nY = 0\nr_x = 1\nr_y = 1\n";
   const Summary point = Drive(drive), car = Drive(drive + kCar);
@@ -126,9 +126,9 @@ TEST_F(SummaryTest, DriveThatComesToRestEnds) {
 }
 
 TEST_F(SummaryTest, ControllerThatNeverEngagesGivesNoSteps) {
-  const Summary summary =
-      Drive(files_.Load("duration = 2.0\n"),
-            [](FakeController& controller, VirtualVehicle&) { controller.mode = bus::Mode::kInit; });
+  const Summary summary = Drive(files_.Load("duration = 2.0\n"), [](FakeDaemon& controller, VirtualVehicle&) {
+    controller.mode = bus::Mode::kInit;
+  });
   EXPECT_FALSE(summary.completed);
   EXPECT_EQ(summary.steps, 0);
   EXPECT_FALSE(summary.rms_lateral_error_m);
@@ -138,7 +138,7 @@ TEST_F(SummaryTest, CountsStepsThatWereNotSolvedAndDeadlineMissesAcrossTheWrap) 
   const Scenario scenario =
       files_.Load("duration = 4.0\n[expect]\nmax_infeasible_steps = 2\nmax_deadline_misses = 4\n");
   int cycle = 0;
-  const Summary summary = Drive(scenario, [&cycle](FakeController& controller, VirtualVehicle&) {
+  const Summary summary = Drive(scenario, [&cycle](FakeDaemon& controller, VirtualVehicle&) {
     ++cycle;
     controller.solver_status =
         cycle >= 40 && cycle < 43 ? bus::SolverStatus::kInfeasible : bus::SolverStatus::kSolved;
@@ -155,7 +155,7 @@ TEST_F(SummaryTest, TellsTheFirstAndTheWorstOfWhatWasNotMet) {
   const Scenario scenario = files_.Load("duration = 4.0\n");
   int cycle = 0;
   std::int64_t first = 0;
-  const Summary summary = Drive(scenario, [&](FakeController& controller, VirtualVehicle&) {
+  const Summary summary = Drive(scenario, [&](FakeDaemon& controller, VirtualVehicle&) {
     ++cycle;
     controller.constraint = bus::ConstraintReport{};
     if (controller.mode != bus::Mode::kActive) return;

@@ -5,7 +5,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "tests/sim/fake_controller.hpp"
+#include "tests/sim/fake_daemon.hpp"
 #include "tests/sim/scenario_files.hpp"
 
 namespace sim {
@@ -25,7 +25,7 @@ class VirtualVehicleTest : public testing::Test {
     return names;
   }
   // One cycle with a controller.
-  static void Cycle(VirtualVehicle& vehicle, FakeController& controller) {
+  static void Cycle(VirtualVehicle& vehicle, FakeDaemon& controller) {
     for (const can::Frame& frame : vehicle.Sense({})) {
       for (const can::Frame& answer : controller.Receive(frame)) vehicle.Receive(answer);
     }
@@ -125,7 +125,7 @@ TEST_F(VirtualVehicleTest, BeforeEngagementRollsOnAsItStarted) {
 
 TEST_F(VirtualVehicleTest, CommandIsObeyedOnlyWhileEnabled) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
-  const FakeController controller(bus_, files_.Load("").route);
+  const FakeDaemon controller(bus_, files_.Load("").route);
   vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = false, .delta = 0.1}));
   vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = false, .acceleration = 1.0}));
   vehicle.Advance();
@@ -139,7 +139,7 @@ TEST_F(VirtualVehicleTest, CommandIsObeyedOnlyWhileEnabled) {
 
 TEST_F(VirtualVehicleTest, DriverTakesOverAfterDisablingAndBrakesToAStop) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
-  const FakeController controller(bus_, files_.Load("").route);
+  const FakeDaemon controller(bus_, files_.Load("").route);
   vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.02}));
   vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = true, .acceleration = 0.0}));
   vehicle.Advance();
@@ -156,7 +156,7 @@ TEST_F(VirtualVehicleTest, DriverTakesOverAtOnceThoughCommandsTakeTheirTime) {
   const Scenario scenario =
       files_.Load("[initial]\nlateral = 1.0\n[vehicle]\ndelay_cycles = 4\n[driver]\ndisengage_at = 2.0\n");
   VirtualVehicle vehicle(scenario, bus_);
-  FakeController controller(bus_, scenario.route);
+  FakeDaemon controller(bus_, scenario.route);
   while (vehicle.time() < 2.0) Cycle(vehicle, controller);
   ASSERT_EQ(vehicle.mode(), bus::Mode::kActive);
   const double held = vehicle.actuators()[control::kDelta];
@@ -170,7 +170,7 @@ TEST_F(VirtualVehicleTest, DriverTakesOverAtOnceThoughCommandsTakeTheirTime) {
 
 TEST_F(VirtualVehicleTest, CommandThatIsNotRenewedIsObeyedForItsLifetimeOnly) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
-  const FakeController controller(bus_, files_.Load("").route);
+  const FakeDaemon controller(bus_, files_.Load("").route);
   vehicle.Receive(controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.0}));
   vehicle.Receive(controller.Encode(bus::AccelerationCommand{.enable = true, .acceleration = 1.0}));
   for (int i = 0; i < kCommandLifetime; ++i) {
@@ -184,7 +184,7 @@ TEST_F(VirtualVehicleTest, CommandThatIsNotRenewedIsObeyedForItsLifetimeOnly) {
 
 TEST_F(VirtualVehicleTest, IsAnsweredByBothCommandsToItsCounterAndAStatusAfterThem) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
-  FakeController controller(bus_, files_.Load("").route);
+  FakeDaemon controller(bus_, files_.Load("").route);
   vehicle.Advance();  // the counter is 1 now
   vehicle.Receive(controller.Encode(bus::SteeringCommand{.state_counter = 1}));
   vehicle.Receive(controller.Status());
@@ -201,7 +201,7 @@ TEST_F(VirtualVehicleTest, IsAnsweredByBothCommandsToItsCounterAndAStatusAfterTh
 
 TEST_F(VirtualVehicleTest, FrameWithWrongCrcChangesNothing) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
-  const FakeController controller(bus_, files_.Load("").route);
+  const FakeDaemon controller(bus_, files_.Load("").route);
   can::Frame bad = controller.Encode(bus::SteeringCommand{.enable = true, .delta = 0.1});
   bad.data[5] ^= std::byte{0x10};
   vehicle.Receive(bad);
@@ -214,7 +214,7 @@ TEST_F(VirtualVehicleTest, FrameWithWrongCrcChangesNothing) {
 TEST_F(VirtualVehicleTest, DriverEngagesOnceTheControllerStandsBy) {
   const Scenario scenario = files_.Load("[driver]\nengage_at = 1.0\n");
   VirtualVehicle vehicle(scenario, bus_);
-  FakeController controller(bus_, scenario.route);
+  FakeDaemon controller(bus_, scenario.route);
   while (vehicle.time() < 0.99) {
     Cycle(vehicle, controller);
     EXPECT_EQ(controller.mode, bus::Mode::kStandby);
@@ -226,7 +226,7 @@ TEST_F(VirtualVehicleTest, DriverEngagesOnceTheControllerStandsBy) {
 TEST_F(VirtualVehicleTest, DriverOverridesAndKeepsTheWheel) {
   const Scenario scenario = files_.Load("[driver]\nbrake_at = 2.0\n");
   VirtualVehicle vehicle(scenario, bus_);
-  FakeController controller(bus_, scenario.route);
+  FakeDaemon controller(bus_, scenario.route);
   while (vehicle.time() < 1.9) Cycle(vehicle, controller);
   EXPECT_EQ(controller.mode, bus::Mode::kActive);
   while (vehicle.time() < 5.0) Cycle(vehicle, controller);

@@ -88,7 +88,7 @@ std::string Process::Stderr() const {
   return ReadAll(folder_ / "stderr");
 }
 
-std::string KernelSays(pid_t pid, const std::string& name) {
+std::string ProcStatus(pid_t pid, const std::string& name) {
   std::ifstream status("/proc/" + std::to_string(pid) + "/status");
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with(name + ":")) return line.substr(line.find_first_not_of(" \t", name.size() + 1));

@@ -44,7 +44,7 @@ class Process {
 };
 
 // The value of line `name` in /proc/PID/status, such as "11512 kB" for "VmRSS"; "" if there is no such line.
-[[nodiscard]] std::string KernelSays(pid_t pid, const std::string& name);
+[[nodiscard]] std::string ProcStatus(pid_t pid, const std::string& name);
 
 struct Outcome {
   int status = 0;  // as returned by Process::Wait

@@ -182,7 +182,7 @@ TEST(Lpvmpc, LogIsNotTouchedByARunThatCannotBegin) {
   EXPECT_EQ(std::filesystem::file_size(log), 9u);
 }
 
-TEST(Lpvmpc, OutputThatCannotBeWrittenIsToldAndIsNoSuccess) {
+TEST(Lpvmpc, OutputThatCannotBeWrittenIsReportedAndIsNoSuccess) {
   for (const std::string& command :
        {std::string(" run --scenario ") + kDemo + "/scenario.toml", std::string(" --help"),
         std::string(" bench step --horizon 8 --repeat 1")}) {
@@ -190,7 +190,7 @@ TEST(Lpvmpc, OutputThatCannotBeWrittenIsToldAndIsNoSuccess) {
   }
 }
 
-TEST(Lpvmpc, InputThatCannotBeReadIsToldAndIsNoSuccess) {
+TEST(Lpvmpc, InputThatCannotBeReadIsReportedAndIsNoSuccess) {
   ExpectOneLine({"sh", "-c", LPVMPC " decode </tmp"}, HasSubstr("standard input"));
   ExpectOneLine({LPVMPC, "decode", "/tmp"}, HasSubstr("/tmp: cannot be read: Is a directory"));
 }
@@ -246,8 +246,8 @@ TEST(Lpvmpc, BenchQpNamesTheFileAndTheLineThatIsWrong) {
   const std::string dir = folder.path().string();
   ExpectOneLine({LPVMPC, "bench", "qp", dir}, HasSubstr("holds no *.qp"));
   ExpectOneLine({LPVMPC, "bench", "qp", dir + "/none"}, HasSubstr("/none: no such folder"));
-  const auto expect = [&](const std::string& text, const std::string& told) {
-    ExpectOneLine({LPVMPC, "bench", "qp", dir}, HasSubstr(Write(folder, "a.qp", text) + told));
+  const auto expect = [&](const std::string& text, const std::string& message) {
+    ExpectOneLine({LPVMPC, "bench", "qp", dir}, HasSubstr(Write(folder, "a.qp", text) + message));
   };
   expect("8 8\n3", ":2: nu = 3 must be a whole number in [2, 2]");
   expect("8 8 2\n1.0 x", ":2: x: not a number");
@@ -265,7 +265,7 @@ TEST(Lpvmpc, RunPrintsItsSummaryAsJson) {
   }
 }
 
-TEST(Lpvmpc, FailedExpectationIsToldAndGivesStatusOne) {
+TEST(Lpvmpc, FailedExpectationIsReportedAndGivesStatusOne) {
   const test_support::TempDir folder;
   const std::string file = Write(folder, "s.toml",
                                  "name = \"x\"\nroute = \"" + kDemo + "/route.toml\"\ndaemon_config = \"" +

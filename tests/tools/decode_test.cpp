@@ -88,7 +88,7 @@ TEST(Decode, JudgesTheCounterOfEachMessageAndInterfaceByItself) {
                                              "counter 3 ok", "counter 5 first", "counter 3 lost 13"));
 }
 
-TEST(Decode, BadCrcIsToldAndItsCounterIsNotBelieved) {
+TEST(Decode, BadCrcIsReportedAndItsCounterIsNotBelieved) {
   std::string bad = Line(bus::ObstacleList{}, 9);
   const std::size_t payload = bad.find('#') + 1;
   bad[payload] = bad[payload] == '0' ? '1' : '0';

@@ -168,7 +168,7 @@ tools::FeasibilityMap MadeUpMap() {
                .cells = {{kClear, kClear, kMarginal}, {kClear, kTouch, kClear}, {kClear, kClear, kClear}}}}};
 }
 
-TEST(FeasibilityMap, IsToldInTextJsonAndPage) {
+TEST(FeasibilityMap, IsReportedInTextJsonAndPage) {
   PaperResult result = MadeUp();
   const std::size_t sections = tools::PaperPage(result).at("sections").size();
   EXPECT_TRUE(tools::ToJson(result).at("map").is_null());

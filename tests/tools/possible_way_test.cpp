@@ -66,7 +66,7 @@ TEST(PossibleWay, GapMustTakeTheVehicleAndTwentyCentimetresOnEitherSide) {
   EXPECT_EQ(FindPossibleWay(With({.X = 750.0, .Y = -1.0, .r_x = 1.0, .r_y = 2.81})), PossibleWay::kStop);
 }
 
-TEST(PossibleWay, SideThatIsToldIsTheOnlyOne) {
+TEST(PossibleWay, PrescribedSideIsTheOnlyOne) {
   Obstacle obstacle{.X = 750.0, .Y = -1.5, .r_x = 1.0, .r_y = 1.0};
   for (const auto& [side, way] :
        {std::pair(PassingSide::kLeft, PossibleWay::kPass), std::pair(PassingSide::kRight, PossibleWay::kStop),

@@ -52,7 +52,7 @@ TEST(MapInProcesses, ResultLargerThanAPipeComesWhole) {
   EXPECT_EQ(results[1], std::string(1'000'000, 'b'));
 }
 
-TEST(MapInProcesses, FailureIsToldWithItsItem) {
+TEST(MapInProcesses, FailureIsReportedWithItsItem) {
   EXPECT_THAT(ErrorOf([](std::size_t i) -> std::string {
                 if (i == 3) throw std::runtime_error("out of luck");
                 return "";
@@ -60,7 +60,7 @@ TEST(MapInProcesses, FailureIsToldWithItsItem) {
               AllOf(HasSubstr("item 3"), HasSubstr("out of luck")));
 }
 
-TEST(MapInProcesses, CrashIsToldWithItsSignal) {
+TEST(MapInProcesses, CrashIsReportedWithItsSignal) {
   EXPECT_THAT(ErrorOf([](std::size_t i) {
                 if (i == 5) raise(SIGKILL);
                 return std::string();

@@ -267,7 +267,7 @@ class ReportPage(unittest.TestCase):
         # An error during drawing, long after the page was built.
         assert_seen("Path2D.prototype.ellipse = () => { throw new Error('no ellipse'); };", "no ellipse")
         report["sections"].pop()
-        self.assert_check_fails(self.write(report), "plots told")
+        self.assert_check_fails(self.write(report), "plots reported")
 
 
 if __name__ == "__main__":

@@ -50,10 +50,10 @@ def check_page(chromium, path, plots):
     chromium.wait_for("return document.documentElement.dataset.ready === '1' ||"
                       "document.querySelector('.fault') !== null", "the page to be drawn")
     faults = chromium.run("return [...document.querySelectorAll('.fault')].map(fault => fault.textContent)")
-    assert not faults, f"the page tells of a fault: {faults}"
+    assert not faults, f"the page reports a fault: {faults}"
     told = int(chromium.run("return document.documentElement.dataset.plots"))
     seen = read_plots(chromium)
-    assert told == plots and len(seen) == plots, f"{told} plots told and {len(seen)} seen, not {plots}"
+    assert told == plots and len(seen) == plots, f"{told} plots reported and {len(seen)} seen, not {plots}"
     for plot in seen:
         assert plot["title"] and plot["label"], f"a plot has no name: {plot}"
         assert plot["coloured"] >= LEAST_COLOURED, f"nothing is drawn in {plot}"

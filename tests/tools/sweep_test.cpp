@@ -358,7 +358,7 @@ TEST_F(Parts, WhatIsNoneIsRefusedWithItsFile) {
   };
   const std::string text = tools::PartJson(Made(Small(), {.index = 1, .of = 1})).dump();
   EXPECT_EQ(error(text), "no error");
-  const std::string place = file.string() + ": is no part of a sweep: ";
+  const std::string place = file.string() + ": is not a part of a sweep: ";
   EXPECT_THAT(error(""), HasSubstr(place));
   EXPECT_THAT(error(text.substr(0, text.size() / 2)), HasSubstr(place));
   EXPECT_THAT(error("[]"), HasSubstr(place));
@@ -372,7 +372,8 @@ TEST_F(Parts, WhatIsNoneIsRefusedWithItsFile) {
   part = Made(Small(), {.index = 1, .of = 1});
   part.result.scenarios[1].seed += 1;
   EXPECT_THAT(error(tools::PartJson(part).dump()), HasSubstr("not those of its shard"));
-  EXPECT_THAT(error(tools::PartJson(Made(Small(), {.index = 3, .of = 2})).dump()), HasSubstr("no shard 3/2"));
+  EXPECT_THAT(error(tools::PartJson(Made(Small(), {.index = 3, .of = 2})).dump()),
+              HasSubstr("shard 3/2 does not exist"));
   EXPECT_THAT(ErrorOfMerge({folder_.path() / "none"}), HasSubstr("none: cannot be read"));
 }
 

@@ -60,14 +60,14 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
   std::string series;  // of `before`; empty if there is no warm start
   Line line;
   for (const Named& named : all) {
-    const control::OcpQpPoint<8, 2>* guess = warm && series == named.series ? &before : nullptr;
+    const control::OcpQpPoint<8, 2>* warm_start = warm && series == named.series ? &before : nullptr;
     control::QpResult result;
     named.instance.Build(qp);
-    for (int i = 0; i < repeat; ++i) line.solve.Measure([&] { result = solver.Solve(qp, guess); });
+    for (int i = 0; i < repeat; ++i) line.solve.Measure([&] { result = solver.Solve(qp, warm_start); });
     for (int i = 0; i < repeat; ++i) {
       line.build_solve.Measure([&] {
         named.instance.Build(qp);
-        result = solver.Solve(qp, guess);
+        result = solver.Solve(qp, warm_start);
       });
     }
     ++line.instances;

@@ -61,7 +61,7 @@ void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem:
   const auto path = [&](const std::filesystem::path& file) {
     return quoted(std::filesystem::absolute(file).lexically_normal().string());
   };
-  std::string text = "# What this drive was driven with.\n";
+  std::string text = "# Inputs of this drive.\n";
   text += "scenario = " + path(scenario) + "\nconfig = " + path(config) +
           "\ncontroller = " + quoted(controller) + "\n";
   WriteFile(run_dir / "drive.toml", text);

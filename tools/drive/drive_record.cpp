@@ -98,16 +98,17 @@ void DriveRecorder::AddSampleIfWhole(std::uint8_t counter, can::Time time) {
   sample.cycle = cycle;
   sample.z << pose_.X, pose_.Y, motion_.upsilon, motion_.nu, feedback_.psi, motion_.omega;
   sample.u << feedback_.delta, feedback_.acceleration;
-  status_told_ = health_told_ = plan_wanted_ = false;
+  status_received_ = health_received_ = plan_wanted_ = false;
 }
 
 // The motion follows the obstacle's position; the velocity allows moving the position back to cycle 0.
 void DriveRecorder::TakeMotion(const bus::ObstacleMotion& motion) {
   const int id = motion.object_id;
   const auto obstacle = std::ranges::find(record_.obstacles, id, &control::Obstacle::id);
-  if (obstacle == record_.obstacles.end() || std::ranges::find(moving_told_, id) != moving_told_.end())
+  if (obstacle == record_.obstacles.end() ||
+      std::ranges::find(moving_received_, id) != moving_received_.end())
     return;
-  moving_told_.push_back(id);
+  moving_received_.push_back(id);
   // Obstacles are sent before the state set of their cycle.
   const double t = record_.samples.empty() ? 0.0 : record_.Time(record_.samples.back()) + record_.t_s;
   obstacle->velocity_X = motion.velocity_X;
@@ -150,14 +151,14 @@ void DriveRecorder::TakeMessage(const bus::Message& message, std::uint8_t counte
                  },
                  [&](const bus::ObstacleMotion& motion) { TakeMotion(motion); },
                  [&](const bus::ControllerStatus& status) {
-                   if (sample == nullptr || status_told_) return;
+                   if (sample == nullptr || status_received_) return;
                    sample->status = status;
-                   status_told_ = true;
+                   status_received_ = true;
                  },
                  [&](const bus::SchedulingHealth& health) {
-                   if (sample == nullptr || health_told_) return;
+                   if (sample == nullptr || health_received_) return;
                    sample->health = health;
-                   health_told_ = true;
+                   health_received_ = true;
                  },
                  [&](const bus::HorizonHeader& header) {
                    plan_wanted_ =

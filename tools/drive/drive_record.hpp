@@ -81,9 +81,9 @@ class DriveRecorder {
   bus::VehicleFeedback feedback_;
   StatePart part_;
   std::optional<LastSet> last_;
-  std::vector<int> moving_told_;  // ids of the obstacles whose motion was received
-  bool status_told_ = false;      // for the last sample; a later status answers the timer
-  bool health_told_ = false;
+  std::vector<int> moving_received_;  // ids of the obstacles whose motion was received
+  bool status_received_ = false;      // for the last sample; a later status answers the timer
+  bool health_received_ = false;
   bool plan_wanted_ = false;  // the last header belongs to the last sample's plan
 };
 

@@ -58,7 +58,7 @@ class Children {
   void Start(std::size_t item, const std::function<std::string(std::size_t)>& work) {
     int ends[2];
     if (pipe(ends) != 0)
-      throw std::runtime_error(fmt::format("no pipe to a process: {}", std::strerror(errno)));
+      throw std::runtime_error(fmt::format("cannot create a pipe: {}", std::strerror(errno)));
     const pid_t pid = fork();
     if (pid == 0) {
       close(ends[0]);
@@ -67,7 +67,7 @@ class Children {
     close(ends[1]);
     if (pid < 0) {
       close(ends[0]);
-      throw std::runtime_error(fmt::format("no process to be had: {}", std::strerror(errno)));
+      throw std::runtime_error(fmt::format("cannot create a process: {}", std::strerror(errno)));
     }
     children_.push_back({.pid = pid, .pipe = ends[0], .item = item, .text = {}});
   }

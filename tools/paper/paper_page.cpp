@@ -199,7 +199,7 @@ void AddMap(const PaperResult& result, ordered_json& page) {
 }  // namespace
 
 ordered_json PaperPage(const PaperResult& result) {
-  ordered_json page{{"title", "The paper, driven anew"},
+  ordered_json page{{"title", "The paper's results reproduced"},
                     {"subtitle",
                      "Obstacle Avoidance of Autonomous Vehicles: An LPVMPC with Scheduling Trust Region "
                      "(Nezami, Karachalios, Schildbach, Abbas 2024), by lpvmpc paper"},

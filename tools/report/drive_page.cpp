@@ -32,7 +32,7 @@ DriveRecord ReadLog(const std::filesystem::path& file, const bus::VehicleBus& bu
     if (*entry) recorder.Take((*entry)->frame);
   }
   if (recorder.record().samples.empty()) {
-    throw std::runtime_error(config::PlaceName(file) + ": holds no state of a vehicle");
+    throw std::runtime_error(config::PlaceName(file) + ": contains no state of the vehicle");
   }
   return recorder.record();
 }
@@ -124,9 +124,9 @@ ordered_json DrivePage(const std::filesystem::path& run_dir) {
        {"title", "The drive"},
        {"paragraphs", {"Move over a plot: all follow, and the plane shows vehicle and plan of that step."}},
        {"drives", {"drive"}}});
-  const bool plans_told =
+  const bool has_plans =
       std::ranges::any_of(record.samples, [](const DriveSample& s) { return !s.plan.empty(); });
-  if (!record.obstacles.empty() && plans_told)
+  if (!record.obstacles.empty() && has_plans)
     sections.push_back(FansSection(record, loop::HorizonOf(drive.config)));
   return {
       {"title", drive.scenario.name},

@@ -16,7 +16,7 @@ void Report(const ReportOptions& options) {
   const nlohmann::ordered_json page =
       std::filesystem::exists(data) ? ParseJson(data) : DrivePage(options.run_dir);
   if (!page.is_object() || !page.contains("title") || !page["title"].is_string()) {
-    throw std::runtime_error(config::PlaceName(data) + ": holds no data of a page");
+    throw std::runtime_error(config::PlaceName(data) + ": contains no data of a page");
   }
   WriteFile(options.output, ReportPage(page["title"].get<std::string>(), page.dump()));
 }

@@ -30,7 +30,7 @@ double HighestCurvature(const control::Route& route, double from, double to) {
   return highest;
 }
 
-bool OnToldSide(const Encounter& met, const Gap& gap) {
+bool OnPrescribedSide(const Encounter& met, const Gap& gap) {
   switch (met.obstacle.side) {
     case PassingSide::kLeft:
       return gap.right >= met.lateral + met.half_width;
@@ -70,9 +70,9 @@ std::optional<double> LeastShift(const std::vector<Encounter>& all, const Encoun
   const double margin = scenario.footprint.half_width + kBeside;
   std::optional<double> least;
   for (const Gap& gap : gaps) {
-    const bool told =
-        std::ranges::all_of(beside, [&](const Encounter& other) { return OnToldSide(other, gap); });
-    if (!told || gap.left - gap.right < 2.0 * margin) continue;
+    const bool allowed =
+        std::ranges::all_of(beside, [&](const Encounter& other) { return OnPrescribedSide(other, gap); });
+    if (!allowed || gap.left - gap.right < 2.0 * margin) continue;
     const double shift = std::max({0.0, gap.right + margin, -(gap.left - margin)});
     least = std::min(least.value_or(shift), shift);
   }

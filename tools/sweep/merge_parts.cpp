@@ -20,7 +20,7 @@ SweepPart ReadPart(const std::filesystem::path& file) {
   try {
     return PartOf(nlohmann::ordered_json::parse(text));
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: is no part of a sweep: {}", config::PlaceName(file),
+    throw std::runtime_error(fmt::format("{}: is not a part of a sweep: {}", config::PlaceName(file),
                                          config::Printable(error.what(), 200)));
   }
 }

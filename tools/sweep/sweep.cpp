@@ -10,7 +10,8 @@
 namespace tools {
 namespace {
 
-void Tell(const SweepResult& result, bool as_json, const std::filesystem::path& folder, std::ostream& out) {
+void WriteResult(const SweepResult& result, bool as_json, const std::filesystem::path& folder,
+                 std::ostream& out) {
   nlohmann::ordered_json figures = ToJson(result);
   const nlohmann::ordered_json timing = TimingJson(result);
   if (!folder.empty()) {
@@ -34,7 +35,7 @@ void Sweep(const SweepOptions& options, std::ostream& out) {
   CheckSetup(options.setup);
   if (!options.shard) {
     if (!options.out.empty()) MakeFolder(options.out);
-    Tell(DriveSweep(options.setup, {}, options.jobs).result, options.json, options.out, out);
+    WriteResult(DriveSweep(options.setup, {}, options.jobs).result, options.json, options.out, out);
     return;
   }
   const std::string part = PartJson(DriveSweep(options.setup, *options.shard, options.jobs)).dump(2) + "\n";
@@ -48,7 +49,7 @@ void Sweep(const SweepOptions& options, std::ostream& out) {
 void MergeSweep(const SweepMergeOptions& options, std::ostream& out) {
   const SweepResult result = MergeParts(options.parts);
   if (!options.out.empty()) MakeFolder(options.out);
-  Tell(result, options.json, options.out, out);
+  WriteResult(result, options.json, options.out, out);
 }
 
 }  // namespace tools

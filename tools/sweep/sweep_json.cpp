@@ -29,7 +29,7 @@ Enumeration Named(const std::array<Enumeration, N>& all, const std::string& name
   for (const Enumeration one : all) {
     if (name == NameOf(one)) return one;
   }
-  throw std::invalid_argument(fmt::format("\"{}\" is none of its words", name));
+  throw std::invalid_argument(fmt::format("\"{}\" is not a known name", name));
 }
 
 ordered_json DriveJson(const SweepDrive& drive) {
@@ -177,7 +177,7 @@ SweepPart PartOf(const ordered_json& json) {
   result.setup = SetupOf(json.at("sweep"));
   part.shard = {.index = json.at("shard").at("index"), .of = json.at("shard").at("of")};
   if (part.shard.index < 1 || part.shard.index > part.shard.of)
-    throw std::invalid_argument(fmt::format("there is no shard {}/{}", part.shard.index, part.shard.of));
+    throw std::invalid_argument(fmt::format("shard {}/{} does not exist", part.shard.index, part.shard.of));
   for (const ordered_json& scenario : json.at("scenarios"))
     result.scenarios.push_back(ScenarioOf(scenario, result.setup));
   const std::vector<int> indices = part.shard.Indices(result.setup.count);

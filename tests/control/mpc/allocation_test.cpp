@@ -9,7 +9,7 @@
 #include "control/mpc/lpv_mpc.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/mpc/closed_loop.hpp"
-#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/mpc/road_loop.hpp"
 #include "tests/support/allocations.hpp"
 #include "tools/bench/qp_instance.hpp"
 
@@ -62,11 +62,11 @@ TEST(Allocations, SolverTakesNone) {
   broken.stages[2].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
   OcpQpSolver<8, 2> solver(qp.horizon()),
       impatient(qp.horizon(), {.max_iterations = 2, .max_working_set = 0});
-  const OcpQpPoint<8, 2> guess(qp.horizon());
+  const OcpQpPoint<8, 2> warm_start(qp.horizon());
   const std::size_t before = Taken();
   const SolverStatus cold = solver.Solve(qp).status;
-  const SolverStatus warm = solver.Solve(qp, &guess).status;
-  const SolverStatus penalised = solver.Solve(exact, &guess).status;
+  const SolverStatus warm = solver.Solve(qp, &warm_start).status;
+  const SolverStatus penalised = solver.Solve(exact, &warm_start).status;
   const SolverStatus proven = solver.Solve(infeasible).status;
   const SolverStatus failed = solver.Solve(broken).status;
   const SolverStatus stopped = impatient.Solve(qp).status;
@@ -115,7 +115,7 @@ TEST(Allocations, StepWithTheAffineModelTakesNone) {
   LpvAffineSettings settings;
   settings.iterations = 3;
   settings.converged = 0.0;
-  testing::CourseLoop loop(testing::WindingRoad(30.0, 12.0), settings);
+  testing::RoadLoop loop(testing::WindingRoad(30.0, 12.0), settings);
   loop.obstacles().reserve(100);
   const auto step = [&](SolverStatus expected) {
     const auto input = loop.Asked();

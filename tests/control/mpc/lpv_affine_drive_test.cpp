@@ -4,13 +4,13 @@
 
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "gtest/gtest.h"
-#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/mpc/road_loop.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
 namespace {
 
-using testing::CourseLoop;
+using testing::RoadLoop;
 using testing::StraightRoad;
 using testing::WindingRoad;
 
@@ -26,7 +26,7 @@ struct Figures {
 
 // Drives for `seconds`, or until `done()` or a failed step.
 template <typename Done>
-Figures Drive(CourseLoop& loop, double seconds, Done done) {
+Figures Drive(RoadLoop& loop, double seconds, Done done) {
   Figures figures;
   for (int k = 0; k * loop.settings().t_s < seconds && !done(); ++k) {
     const Plan& plan = loop.Ask();
@@ -45,12 +45,12 @@ Figures Drive(CourseLoop& loop, double seconds, Done done) {
   return figures;
 }
 
-Figures Drive(CourseLoop& loop, double seconds) {
+Figures Drive(RoadLoop& loop, double seconds) {
   return Drive(loop, seconds, [] { return false; });
 }
 
 TEST(LpvAffineDrive, KeepsCloseToAWindingRoadAtTheSpeedOfItsCurves) {
-  CourseLoop loop(WindingRoad(25.0, 14.0));
+  RoadLoop loop(WindingRoad(25.0, 14.0));
   const Figures figures = Drive(loop, 60.0, [&] { return loop.s() > 220.0; });
   EXPECT_EQ(figures.not_solved, 0);
   EXPECT_GE(loop.s(), 220.0);
@@ -60,7 +60,7 @@ TEST(LpvAffineDrive, KeepsCloseToAWindingRoadAtTheSpeedOfItsCurves) {
 }
 
 TEST(LpvAffineDrive, StopsAtTheEndOfTheCourseAndHolds) {
-  CourseLoop loop(StraightRoad(80.0, 12.0));
+  RoadLoop loop(StraightRoad(80.0, 12.0));
   EXPECT_EQ(Drive(loop, 14.0).not_solved, 0);
   EXPECT_NEAR(loop.s(), 80.0, 0.5);
   EXPECT_LT(loop.z()[kUpsilon], 0.05);
@@ -71,7 +71,7 @@ TEST(LpvAffineDrive, StopsAtTheEndOfTheCourseAndHolds) {
 }
 
 TEST(LpvAffineDrive, SetsOffFromStandstill) {
-  CourseLoop loop(StraightRoad(200.0, 10.0));
+  RoadLoop loop(StraightRoad(200.0, 10.0));
   loop.PlaceAt(0.0, 0.0, 0.5);
   const Figures figures = Drive(loop, 12.0);
   EXPECT_EQ(figures.not_solved, 0);
@@ -82,7 +82,7 @@ TEST(LpvAffineDrive, SetsOffFromStandstill) {
 
 TEST(LpvAffineDrive, ComesBackFromFarBesideTheCourse) {
   for (const double lateral : {3.0, -3.0}) {
-    CourseLoop loop(StraightRoad(300.0, 12.0));
+    RoadLoop loop(StraightRoad(300.0, 12.0));
     loop.PlaceAt(10.0, 12.0, lateral);
     const Figures figures = Drive(loop, 6.0);
     EXPECT_EQ(figures.not_solved, 0);
@@ -95,7 +95,7 @@ class AnObstacle : public ::testing::TestWithParam<double> {};
 
 TEST_P(AnObstacle, IsPassedByTheWholeFootprintOnTheRoad) {
   for (const double place : {60.0, 85.0, 110.0, 140.0}) {
-    CourseLoop loop(WindingRoad(40.0, 12.0));
+    RoadLoop loop(WindingRoad(40.0, 12.0));
     loop.obstacles() = {loop.ObstacleAt(place, GetParam(), 0.8)};
     const Figures figures = Drive(loop, 40.0, [&] { return loop.s() > place + 30.0; });
     EXPECT_EQ(figures.not_solved, 0) << place;
@@ -110,7 +110,7 @@ TEST_P(AnObstacle, IsPassedByTheWholeFootprintOnTheRoad) {
 INSTANTIATE_TEST_SUITE_P(LpvAffineDrive, AnObstacle, ::testing::Values(-1.5, -0.3, 0.3, 1.5));
 
 TEST(LpvAffineDrive, BeforeABlockedRoadItStopsHoldsAndGoesOnWhenItIsFree) {
-  CourseLoop loop(StraightRoad(300.0, 12.0));
+  RoadLoop loop(StraightRoad(300.0, 12.0));
   loop.obstacles() = {loop.ObstacleAt(100.0, 0.0, 3.0)};
   Figures figures = Drive(loop, 15.0);
   EXPECT_EQ(figures.not_solved, 0);
@@ -128,7 +128,7 @@ TEST(LpvAffineDrive, BeforeABlockedRoadItStopsHoldsAndGoesOnWhenItIsFree) {
 
 TEST(LpvAffineDrive, ObstacleThatCrossesIsPassed) {
   for (const double speed : {1.0, -1.0}) {
-    CourseLoop loop(StraightRoad(200.0, 12.0));
+    RoadLoop loop(StraightRoad(200.0, 12.0));
     Obstacle crossing = loop.ObstacleAt(60.0, -5.0 * speed, 0.5);
     crossing.velocity_Y = speed;
     loop.obstacles() = {crossing};
@@ -141,7 +141,7 @@ TEST(LpvAffineDrive, ObstacleThatCrossesIsPassed) {
 }
 
 TEST(LpvAffineDrive, SlowerVehicleThatCannotBePassedIsFollowed) {
-  CourseLoop loop(StraightRoad(400.0, 12.0), {}, {.left = 2.0, .right = -2.0});
+  RoadLoop loop(StraightRoad(400.0, 12.0), {}, {.left = 2.0, .right = -2.0});
   Obstacle slow = loop.ObstacleAt(40.0, 0.0, 1.0);
   slow.velocity_X = 5.0;
   loop.obstacles() = {slow};
@@ -157,7 +157,7 @@ TEST(LpvAffineDrive, SlowerVehicleThatCannotBePassedIsFollowed) {
 
 TEST(LpvAffineDrive, ObstacleThatAppearsLateIsAvoided) {
   for (const double lateral : {-0.6, 0.6}) {
-    CourseLoop loop(StraightRoad(200.0, 12.0));
+    RoadLoop loop(StraightRoad(200.0, 12.0));
     Drive(loop, 1.0);
     loop.obstacles() = {loop.ObstacleAt(loop.s() + 18.0, lateral, 0.6)};
     const Figures figures = Drive(loop, 4.0);
@@ -168,7 +168,7 @@ TEST(LpvAffineDrive, ObstacleThatAppearsLateIsAvoided) {
 }
 
 TEST(LpvAffineDrive, NearARoadBlockThatAppearsItBrakesAsHardAsItMay) {
-  CourseLoop loop(StraightRoad(200.0, 12.0));
+  RoadLoop loop(StraightRoad(200.0, 12.0));
   Drive(loop, 1.0);
   loop.obstacles() = {loop.ObstacleAt(loop.s() + 24.0, 0.0, 3.0)};  // 19 m ahead of the front
   const Figures figures = Drive(loop, 8.0);

@@ -6,20 +6,20 @@
 #include <vector>
 
 #include "gtest/gtest.h"
-#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/mpc/road_loop.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
 namespace {
 
 using testing::BusyRoad;
-using testing::CourseLoop;
 using testing::LargestDifference;
+using testing::RoadLoop;
 using testing::StraightRoad;
 using testing::WindingRoad;
 
 TEST(LpvAffineMpc, SchedulingErrorIsTheDistanceFromThePredictionInRadii) {
-  CourseLoop loop(StraightRoad(200.0, 12.0));
+  RoadLoop loop(StraightRoad(200.0, 12.0));
   loop.PlaceAt(0.0, 12.0, 0.5);
   EXPECT_EQ(loop.Ask().scheduling_error, 0.0) << "nothing was predicted";
   for (int k = 0; k < 10; ++k) {
@@ -34,7 +34,7 @@ TEST(LpvAffineMpc, SchedulingErrorIsTheDistanceFromThePredictionInRadii) {
 }
 
 // Half width of the trust region in υ in the last step's QP, as a multiple of trust_radius.
-double RadiusOfSpeed(const CourseLoop& loop, const LpvAffineMpc& mpc) {
+double RadiusOfSpeed(const RoadLoop& loop, const LpvAffineMpc& mpc) {
   const auto& stage = mpc.qp().stages[5];
   for (int j = 0; j < stage.row_count; ++j) {
     const auto& row = stage.rows[static_cast<std::size_t>(j)];
@@ -49,7 +49,7 @@ TEST(LpvAffineMpc, TrustRegionWidensWhilePredictionsComeTrueAndNarrowsWhereTheyD
   for (const bool adapt : {true, false}) {
     LpvAffineSettings settings;
     settings.adapt_trust_region = adapt;
-    CourseLoop loop(StraightRoad(300.0, 12.0), settings);
+    RoadLoop loop(StraightRoad(300.0, 12.0), settings);
     loop.Drive(loop.Ask());
     loop.Drive(loop.Ask());
     const double first = RadiusOfSpeed(loop, loop.mpc());
@@ -84,7 +84,7 @@ TEST(LpvAffineMpc, ResetForgetsTheLastPlanAndTheSides) {
   while (loop.s() < 30.0) loop.Drive(loop.Ask());
   loop.mpc().Reset();
   const Plan after_reset = loop.Ask();
-  LpvAffineMpc fresh(VehicleParameters{}, loop.course(), loop.settings());
+  LpvAffineMpc fresh(VehicleParameters{}, loop.profile(), loop.settings());
   const Plan& first = fresh.Step(loop.Asked());
   EXPECT_EQ(after_reset.status, first.status);
   EXPECT_EQ(after_reset.iterations, first.iterations);
@@ -135,7 +135,7 @@ TEST(LpvAffineMpc, IterationsConverge) {
     settings.first_iterations = iterations;
     settings.iterations = iterations;
     settings.converged = 0.0;
-    CourseLoop loop(WindingRoad(30.0, 12.0), settings);
+    RoadLoop loop(WindingRoad(30.0, 12.0), settings);
     loop.PlaceAt(30.0, 12.0, 0.5);
     const Plan& plan = loop.Ask();
     ASSERT_EQ(plan.status, SolverStatus::kSolved);
@@ -149,7 +149,7 @@ TEST(LpvAffineMpc, IterationsConverge) {
 TEST(LpvAffineMpc, PlanThatHasConvergedIsNotIteratedOn) {
   LpvAffineSettings settings;
   settings.iterations = 50;
-  CourseLoop loop(StraightRoad(300.0, 12.0), settings);
+  RoadLoop loop(StraightRoad(300.0, 12.0), settings);
   for (int k = 0; k < 5; ++k) loop.Drive(loop.Ask());
   int asked = 0;
   const std::function<bool()> time_left = [&] { return ++asked > 0; };
@@ -160,7 +160,7 @@ TEST(LpvAffineMpc, PlanThatHasConvergedIsNotIteratedOn) {
 }
 
 TEST(LpvAffineMpc, ObstaclesThatDoNotFitAreNotIgnored) {
-  CourseLoop loop(StraightRoad(300.0, 12.0));
+  RoadLoop loop(StraightRoad(300.0, 12.0));
   loop.PlaceAt(20.0, 12.0);
   const Obstacle easy = loop.ObstacleAt(28.0, -3.4, 0.5);
   for (int k = 0; k < 3; ++k) {

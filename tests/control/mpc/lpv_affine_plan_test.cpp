@@ -4,14 +4,14 @@
 
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "gtest/gtest.h"
-#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/mpc/road_loop.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
 namespace {
 
 using testing::BusyRoad;
-using testing::CourseLoop;
+using testing::RoadLoop;
 using testing::StraightRoad;
 
 TEST(LpvAffinePlan, PlanKeepsToRangesAndRatesOfTheInputs) {
@@ -52,7 +52,7 @@ TEST(LpvAffinePlan, PlanIsWhatTheNonlinearModelDoesWithItsInputs) {
 }
 
 TEST(LpvAffinePlan, PlanStaysWithinTheFrictionThatThereIs) {
-  CourseLoop loop(StraightRoad(300.0, 14.0));
+  RoadLoop loop(StraightRoad(300.0, 14.0));
   loop.PlaceAt(0.0, 14.0);
   loop.obstacles() = {loop.ObstacleAt(62.0, -0.9, 1.2)};
   const double grip = loop.settings().friction_share * loop.settings().mu * 9.81;
@@ -78,7 +78,7 @@ TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessAcross) {
   for (const double mu : {0.7, 0.25}) {
     LpvAffineSettings settings;
     settings.mu = mu;
-    CourseLoop loop(StraightRoad(300.0, 12.0), settings);
+    RoadLoop loop(StraightRoad(300.0, 12.0), settings);
     loop.PlaceAt(0.0, 12.0, 2.5);
     double across = 0.0;
     for (int k = 0; k < 60; ++k) {
@@ -96,7 +96,7 @@ TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessAcross) {
 
 TEST(LpvAffinePlan, InputThatIsOutOfRangeComesBackAsFastAsItMay) {
   for (const Input& out : {Input(0.62, 0.0), Input(-0.62, 0.0), Input(0.0, -8.5), Input(0.0, 4.2)}) {
-    CourseLoop loop(StraightRoad(200.0, 6.0));
+    RoadLoop loop(StraightRoad(200.0, 6.0));
     loop.PlaceAt(20.0, 3.0);
     loop.u() = out;
     const LpvAffineSettings& s = loop.settings();
@@ -118,7 +118,7 @@ TEST(LpvAffinePlan, InputThatIsOutOfRangeComesBackAsFastAsItMay) {
 }
 
 TEST(LpvAffinePlan, ObstacleThatIsTooNearIsNamedWithStepAndAmount) {
-  CourseLoop loop(StraightRoad(300.0, 12.0));
+  RoadLoop loop(StraightRoad(300.0, 12.0));
   loop.PlaceAt(50.0, 6.0);
   loop.obstacles() = {loop.ObstacleAt(50.0, -1.5, 0.8)};  // beside it; 0.9 + 0.3 + 0.8 m are required
   loop.obstacles()[0].id = 7;
@@ -133,7 +133,7 @@ TEST(LpvAffinePlan, ObstacleThatIsTooNearIsNamedWithStepAndAmount) {
 TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
   LpvAffineSettings settings;
   settings.footprint = {.front = 0.0, .rear = 0.0, .half_width = 0.9};  // no end that swings outwards
-  CourseLoop loop(StraightRoad(300.0, 12.0), settings);
+  RoadLoop loop(StraightRoad(300.0, 12.0), settings);
   loop.PlaceAt(50.0, 12.0, 3.5);  // 0.4 m over the edge, plus the margin
   const Plan& plan = loop.Ask();
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
@@ -146,7 +146,7 @@ TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
 TEST(LpvAffinePlan, WhereRoadAndObstacleContradictOneAnotherItGivesUpWhatIsMissing) {
   LpvAffineSettings settings;
   settings.road_margin = 0.2;
-  CourseLoop loop(StraightRoad(300.0, 12.0), settings, {.left = 1.8, .right = -1.8});
+  RoadLoop loop(StraightRoad(300.0, 12.0), settings, {.left = 1.8, .right = -1.8});
   loop.PlaceAt(50.0, 12.0, 0.5);
   // The gap on its left is 1.8 − 0.2 − (−1.1 + 0.7 + 0.3) = 1.7 m; the vehicle needs 1.8 m.
   loop.obstacles() = {loop.ObstacleAt(58.0, -1.1, 0.7)};
@@ -159,7 +159,7 @@ TEST(LpvAffinePlan, WhereRoadAndObstacleContradictOneAnotherItGivesUpWhatIsMissi
 }
 
 TEST(LpvAffinePlan, NothingIsGivenUpWhereEverythingFits) {
-  CourseLoop loop(StraightRoad(300.0, 12.0));
+  RoadLoop loop(StraightRoad(300.0, 12.0));
   loop.obstacles() = {loop.ObstacleAt(60.0, -0.5, 0.7)};
   while (loop.s() < 90.0) {
     const Plan& plan = loop.Ask();

@@ -27,9 +27,9 @@ class PlanCheckTest : public testing::Test {
     return std::vector<Input>(kSteps, Input(delta, a));
   }
 
-  RoadProfile course_ = StraightCourse();
+  RoadProfile profile_ = StraightCourse();
   Footprint footprint_{.front = 1.95, .rear = 2.3, .half_width = 0.9};
-  PlanCheck check_{{.vehicle = {}, .footprint = footprint_, .mu = 0.7, .t_s = 0.05}, course_};
+  PlanCheck check_{{.vehicle = {}, .footprint = footprint_, .mu = 0.7, .t_s = 0.05}, profile_};
 };
 
 TEST_F(PlanCheckTest, StraightOnAnEmptyRoadIsFine) {

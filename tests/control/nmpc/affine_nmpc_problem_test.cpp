@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gtest/gtest.h"
-#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/mpc/road_loop.hpp"
 #include "tests/control/nmpc/program_derivatives.hpp"
 #include "tests/control/random.hpp"
 
@@ -24,7 +24,7 @@ class AffineNmpcProblemTest : public ::testing::Test {
     settings_.horizon = 5;
     loop_ = std::make_unique<BusyRoad>(settings_);
     loop_->PlaceAt(57.0, 9.0, -1.0);
-    task_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->course(), settings_);
+    task_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->profile(), settings_);
     problem_ = std::make_unique<AffineNmpcProblem>(VehicleParameters{}, settings_);
     task_->Begin(loop_->z(), loop_->s(), loop_->obstacles());
     EXPECT_TRUE(task_->BuildConstraints(task_->reference()));

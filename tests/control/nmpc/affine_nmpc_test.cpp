@@ -6,15 +6,15 @@
 
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "gtest/gtest.h"
-#include "tests/control/mpc/course_loop.hpp"
+#include "tests/control/mpc/road_loop.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
 namespace {
 
 using testing::BusyRoad;
-using testing::CourseLoop;
 using testing::LargestDifference;
+using testing::RoadLoop;
 using testing::StraightRoad;
 using testing::WindingRoad;
 
@@ -27,8 +27,8 @@ LpvAffineSettings Converging() {
 }
 
 // Once converged, the QPs have solved the nonlinear problem.
-void ExpectThatLpvAffineConvergesToIt(CourseLoop& loop, int steps) {
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings(),
+void ExpectThatLpvAffineConvergesToIt(RoadLoop& loop, int steps) {
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings(),
                   {.tolerance = 1e-6, .rounds = 20, .converged = 1e-5});
   double most = 0.0;
   for (int k = 0; k < steps; ++k) {
@@ -45,7 +45,7 @@ void ExpectThatLpvAffineConvergesToIt(CourseLoop& loop, int steps) {
 }
 
 TEST(AffineNmpc, IsWhatLpvAffineConvergesTo) {
-  CourseLoop loop(WindingRoad(30.0, 12.0), Converging());
+  RoadLoop loop(WindingRoad(30.0, 12.0), Converging());
   loop.PlaceAt(40.0, 10.0, 0.4);
   ExpectThatLpvAffineConvergesToIt(loop, 5);
 }
@@ -58,7 +58,7 @@ TEST(AffineNmpc, IsWhatLpvAffineConvergesToBesideAnObstacle) {
 
 TEST(AffineNmpc, PlanObeysTheModelAndTheRangesAndRatesOfTheInputs) {
   BusyRoad loop;
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   const LpvAffineSettings& s = loop.settings();
   loop.PlaceAt(44.0, 12.0, 1.0);
   double most_used = 0.0;
@@ -82,8 +82,8 @@ TEST(AffineNmpc, PlanObeysTheModelAndTheRangesAndRatesOfTheInputs) {
 }
 
 TEST(AffineNmpc, PassesAnObstacleWithItsFootprintClear) {
-  CourseLoop loop(WindingRoad(40.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  RoadLoop loop(WindingRoad(40.0, 12.0));
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   loop.PlaceAt(68.0, 11.0);
   loop.obstacles() = {loop.ObstacleAt(85.0, -0.3, 0.8)};
   double clearance = 1e300, road_margin = 1e300;
@@ -100,8 +100,8 @@ TEST(AffineNmpc, PassesAnObstacleWithItsFootprintClear) {
 }
 
 TEST(AffineNmpc, WhatCannotBeKeptToIsRelaxedAndNamed) {
-  CourseLoop loop(StraightRoad(200.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  RoadLoop loop(StraightRoad(200.0, 12.0));
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   loop.PlaceAt(20.0, 12.0, 3.5);  // the left wheels are off the road
   const Plan& plan = nmpc.Step(loop.Asked());
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
@@ -110,8 +110,8 @@ TEST(AffineNmpc, WhatCannotBeKeptToIsRelaxedAndNamed) {
 }
 
 TEST(AffineNmpc, InputOutOfRangeComesBackAsFastAsItMay) {
-  CourseLoop loop(StraightRoad(200.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  RoadLoop loop(StraightRoad(200.0, 12.0));
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   const LpvAffineSettings& s = loop.settings();
   loop.PlaceAt(20.0, 5.0);
   loop.u()[kDelta] = s.u_max[kDelta] + 1.5 * s.rate_max[kDelta];
@@ -122,8 +122,8 @@ TEST(AffineNmpc, InputOutOfRangeComesBackAsFastAsItMay) {
 }
 
 TEST(AffineNmpc, HoldsAtTheEndOfTheCourse) {
-  CourseLoop loop(StraightRoad(80.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  RoadLoop loop(StraightRoad(80.0, 12.0));
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   loop.PlaceAt(80.0, 0.0);
   for (int k = 0; k < 3; ++k) {
     const Plan& plan = nmpc.Step(loop.Asked());
@@ -139,7 +139,7 @@ TEST(AffineNmpc, HoldsAtTheEndOfTheCourse) {
 TEST(AffineNmpc, WarmStartSavesIterations) {
   const auto iterations = [](bool warm) {
     BusyRoad loop;
-    AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+    AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
     loop.PlaceAt(30.0, 10.0);
     int sum = 0;
     for (int k = 0; k < 8; ++k) {
@@ -155,8 +155,8 @@ TEST(AffineNmpc, WarmStartSavesIterations) {
 }
 
 TEST(AffineNmpc, ObstaclesThatDoNotFitAreNotIgnored) {
-  CourseLoop loop(StraightRoad(300.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  RoadLoop loop(StraightRoad(300.0, 12.0));
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   loop.PlaceAt(20.0, 12.0);
   loop.obstacles().assign(100, loop.ObstacleAt(28.0, -3.4, 0.5));
   EXPECT_EQ(nmpc.Step(loop.Asked()).status, SolverStatus::kNumericalFailure);
@@ -164,16 +164,16 @@ TEST(AffineNmpc, ObstaclesThatDoNotFitAreNotIgnored) {
   EXPECT_EQ(nmpc.Step(loop.Asked()).status, SolverStatus::kSolved);
 }
 
-TEST(AffineNmpc, LimitOfIterationsIsToldAsSuch) {
-  CourseLoop loop(StraightRoad(200.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings(), {.max_iterations = 1});
+TEST(AffineNmpc, LimitOfIterationsIsReportedAsSuch) {
+  RoadLoop loop(StraightRoad(200.0, 12.0));
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings(), {.max_iterations = 1});
   loop.PlaceAt(20.0, 12.0, 0.5);
   EXPECT_EQ(nmpc.Step(loop.Asked()).status, SolverStatus::kIterationLimit);
 }
 
 TEST(AffineNmpc, WhatIsNotFiniteFailsAndTheNextGoodStepRecovers) {
   BusyRoad loop;
-  AffineNmpc nmpc(VehicleParameters{}, loop.course(), loop.settings());
+  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
   for (int k = 0; k < 2; ++k) {
     for (double* entry : {&loop.z()[kY], &loop.u()[kDelta], &loop.obstacles()[0].X}) {
       const double good = *entry;

@@ -128,7 +128,7 @@ TEST(Nmpc, WarmStartSavesIterations) {
   EXPECT_LT(2 * iterations(true), iterations(false));
 }
 
-TEST(Nmpc, LimitOfTimeIsToldAsSuch) {
+TEST(Nmpc, LimitOfTimeIsReportedAsSuch) {
   NmpcSettings settings;
   settings.max_cpu_time = 1e-6;
   settings.horizon = 80;  // a solve takes many ticks of the CPU-time clock
@@ -138,7 +138,7 @@ TEST(Nmpc, LimitOfTimeIsToldAsSuch) {
   EXPECT_EQ(loop.Ask().status, SolverStatus::kIterationLimit);
 }
 
-TEST(Nmpc, LimitOfIterationsIsToldAsSuch) {
+TEST(Nmpc, LimitOfIterationsIsReportedAsSuch) {
   NmpcSettings settings;
   settings.max_iterations = 1;
   Nmpc nmpc(VehicleParameters{}, settings);

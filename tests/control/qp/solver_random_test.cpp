@@ -41,10 +41,10 @@ void ExpectIpoptsOptimum(const OcpQp<kNx, kNu>& qp, int instance) {
     EXPECT_NEAR(solver.solution().stages[0].u[k], by_ipopt, 1e-5) << instance;
     EXPECT_NEAR(interior_point.solution().stages[0].u[k], by_ipopt, 1e-5) << instance;
   }
-  // A guess that is the solution itself, and one of nothing.
+  // A warm start that is the solution itself, and one of nothing.
   const OcpQpPoint<kNx, kNu> optimum = solver.solution(), nothing(qp.horizon());
-  for (const auto& guess : {optimum, nothing}) {
-    ASSERT_EQ(solver.Solve(qp, &guess).status, SolverStatus::kSolved) << instance;
+  for (const auto& warm_start : {optimum, nothing}) {
+    ASSERT_EQ(solver.Solve(qp, &warm_start).status, SolverStatus::kSolved) << instance;
     EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).cwiseAbs().maxCoeff(), 1e-5) << instance;
   }
 }

@@ -579,16 +579,16 @@ TEST_P(OcpQpSolverBy, GuessOfAnyNumbersDoesNoHarm) {
   const TimeLeft none = Asks(0);
   for (const double bad : {kNan, kInfinity, 1e200, -1e200}) {
     for (int part = 0; part < 4; ++part) {
-      Point guess = optimum;
-      auto& stage = guess.stages[3];
+      Point warm_start = optimum;
+      auto& stage = warm_start.stages[3];
       if (part == 0) stage.u.fill(bad);
       if (part == 1) stage.pi.fill(bad);
       if (part == 2) stage.lambda.fill({.lo = bad, .hi = bad});
       if (part == 3) stage.slack.fill(bad);
-      ASSERT_EQ(solver.Solve(qp, &guess).status, SolverStatus::kSolved) << bad << " in part " << part;
+      ASSERT_EQ(solver.Solve(qp, &warm_start).status, SolverStatus::kSolved) << bad << " in part " << part;
       EXPECT_LT((solver.solution().stages[0].u - optimum.stages[0].u).norm(), 1e-5)
           << bad << " in part " << part;
-      EXPECT_TRUE(part > 0 || !solver.Solve(qp, &guess, &none).feasible) << bad;
+      EXPECT_TRUE(part > 0 || !solver.Solve(qp, &warm_start, &none).feasible) << bad;
     }
   }
 }

@@ -40,8 +40,8 @@ class Passing : public ::testing::Test {
     return Decide(obstacle, lateral, speed);
   }
 
-  RoadProfile course_{testing::StraightRoad(300.0, kSpeed), {.left = 4.0, .right = -4.0}, {}};
-  PassingPlanner planner_{kSettings, course_};
+  RoadProfile profile_{testing::StraightRoad(300.0, kSpeed), {.left = 4.0, .right = -4.0}, {}};
+  PassingPlanner planner_{kSettings, profile_};
 };
 
 TEST_F(Passing, OfTwoWideGapsThatOneIsTakenThatAsksForTheLeastShift) {

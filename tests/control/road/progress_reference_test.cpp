@@ -19,10 +19,10 @@ struct Filled {
   std::vector<Input> u;
   std::vector<double> s;
 
-  Filled(const RoadProfile& course, double s_0, double upsilon, std::span<const StopLine> stops,
+  Filled(const RoadProfile& profile, double s_0, double upsilon, std::span<const StopLine> stops,
          double seconds = 2.0)
       : z(static_cast<std::size_t>(std::lround(seconds / kTs)) + 1), u(z.size() - 1), s(z.size()) {
-    ProgressReference({}, course, kTs).Fill(s_0, upsilon, stops, z, u, s);
+    ProgressReference({}, profile, kTs).Fill(s_0, upsilon, stops, z, u, s);
   }
 };
 
@@ -30,15 +30,15 @@ TEST(ProgressReference, OnABendItsStatesAreThoseOfSteadyCornering) {
   const BlendedModel model{VehicleParameters{}};
   for (const double speed : {8.5, 12.0, 20.0}) {
     const double radius = speed * speed / 3.0;
-    const RoadProfile course(testing::CircularRoad(radius, 1.0, speed), {}, {.lateral = 4.0});
-    const Filled reference(course, 1.0, speed, {}, 0.5);
+    const RoadProfile profile(testing::CircularRoad(radius, 1.0, speed), {}, {.lateral = 4.0});
+    const Filled reference(profile, 1.0, speed, {}, 0.5);
     for (std::size_t i = 0; i < reference.u.size(); ++i) {
       const State& z = reference.z[i];
       const State derivative = model.Derivative(z, reference.u[i]);
       // The lateral acceleration is 3 m/s²; the remainder is due to cos δ.
       EXPECT_LT(std::abs(derivative[kNu]), 0.03) << speed;
       EXPECT_LT(std::abs(derivative[kOmega]), 0.03) << speed;
-      const RoutePoint point = course.At(reference.s[i]);
+      const RoutePoint point = profile.At(reference.s[i]);
       EXPECT_NEAR(std::atan2(derivative[kY], derivative[kX]), WrapAngle(point.psi), 2e-3) << speed;
       EXPECT_EQ(z[kX], point.X);
       EXPECT_EQ(z[kY], point.Y);
@@ -50,10 +50,10 @@ TEST(ProgressReference, OnABendItsStatesAreThoseOfSteadyCornering) {
 
 TEST(ProgressReference, BeginsWhereTheVehicleIsAtAboutItsSpeedAndComesToTheProfilesGently) {
   const SpeedLimits limits{.lateral = 3.0, .acceleration = 1.2, .deceleration = 2.0};
-  const RoadProfile course(testing::StraightRoad(300.0, 12.0), {}, limits);
+  const RoadProfile profile(testing::StraightRoad(300.0, 12.0), {}, limits);
   for (const double s_0 : {-5.0, 0.0, 100.0}) {
     for (const double upsilon : {-0.2, 0.0, 4.0, 11.0, 16.0}) {
-      const Filled reference(course, s_0, upsilon, {}, 6.0);
+      const Filled reference(profile, s_0, upsilon, {}, 6.0);
       EXPECT_EQ(reference.s[0], s_0);
       EXPECT_NEAR(reference.z[0][kUpsilon], std::max(upsilon, 0.0), 0.5 + 1e-12);
       for (std::size_t i = 0; i < reference.u.size(); ++i) {
@@ -73,35 +73,36 @@ TEST(ProgressReference, BeginsWhereTheVehicleIsAtAboutItsSpeedAndComesToTheProfi
 }
 
 TEST(ProgressReference, NoiseOfTheSpeedIsNoAcceleration) {
-  const RoadProfile course(testing::StraightRoad(300.0, 12.0), {}, {});
+  const RoadProfile profile(testing::StraightRoad(300.0, 12.0), {}, {});
   for (const double noise : {-0.45, -0.1, 0.2, 0.45}) {
-    for (const Input& u : Filled(course, 50.0, 12.0 + noise, {}).u) EXPECT_EQ(u[kAcceleration], 0.0) << noise;
+    for (const Input& u : Filled(profile, 50.0, 12.0 + noise, {}).u)
+      EXPECT_EQ(u[kAcceleration], 0.0) << noise;
   }
-  EXPECT_GT(Filled(course, 50.0, 11.0, {}).u[0][kAcceleration], 0.5);
-  EXPECT_LT(Filled(course, 50.0, 13.0, {}).u[0][kAcceleration], -0.5);
+  EXPECT_GT(Filled(profile, 50.0, 11.0, {}).u[0][kAcceleration], 0.5);
+  EXPECT_LT(Filled(profile, 50.0, 13.0, {}).u[0][kAcceleration], -0.5);
 }
 
 TEST(ProgressReference, FromStandstillItSetsOff) {
-  const RoadProfile course(testing::StraightRoad(300.0, 12.0), {}, {});
-  const Filled reference(course, 0.0, 0.0, {});
-  EXPECT_NEAR(reference.u[0][kAcceleration], course.limits().acceleration, 1e-9);
+  const RoadProfile profile(testing::StraightRoad(300.0, 12.0), {}, {});
+  const Filled reference(profile, 0.0, 0.0, {});
+  EXPECT_NEAR(reference.u[0][kAcceleration], profile.limits().acceleration, 1e-9);
   EXPECT_GT(reference.s.back(), 2.5);
 }
 
 TEST(ProgressReference, StopsBeforeTheFirstOfTheLines) {
-  const RoadProfile course(testing::StraightRoad(300.0, 12.0), {}, {});
+  const RoadProfile profile(testing::StraightRoad(300.0, 12.0), {}, {});
   const std::vector<StopLine> stops{{.s = 120.0}, {.s = 80.0}};
-  const Filled reference(course, 30.0, 12.0, stops, 20.0);
+  const Filled reference(profile, 30.0, 12.0, stops, 20.0);
   EXPECT_EQ(reference.z.back()[kUpsilon], 0.0);
   EXPECT_LE(reference.s.back(), 80.0);
   EXPECT_GT(reference.s.back(), 80.0 - 2.0 * RoadProfile::kStopWithin);
-  EXPECT_EQ(Filled(course, 80.1, 0.0, stops).s.back(), 80.1) << "past the line it does not go on";
+  EXPECT_EQ(Filled(profile, 80.1, 0.0, stops).s.back(), 80.1) << "past the line it does not go on";
 }
 
 TEST(ProgressReference, BehindALineThatMovesItGoesOnAtItsSpeed) {
-  const RoadProfile course(testing::StraightRoad(500.0, 12.0), {}, {});
+  const RoadProfile profile(testing::StraightRoad(500.0, 12.0), {}, {});
   const StopLine line{.s = 60.0, .speed = 5.0};
-  const Filled reference(course, 30.0, 12.0, {&line, 1}, 20.0);
+  const Filled reference(profile, 30.0, 12.0, {&line, 1}, 20.0);
   for (std::size_t i = 0; i < reference.s.size(); ++i) {
     EXPECT_LE(reference.s[i], line.s + line.speed * kTs * static_cast<double>(i));
   }
@@ -109,22 +110,22 @@ TEST(ProgressReference, BehindALineThatMovesItGoesOnAtItsSpeed) {
 }
 
 TEST(ProgressReference, BeyondALineThatMovesItFallsBack) {
-  const RoadProfile course(testing::StraightRoad(500.0, 12.0), {}, {});
+  const RoadProfile profile(testing::StraightRoad(500.0, 12.0), {}, {});
   const StopLine line{.s = 60.0, .speed = 5.0};
-  const Filled reference(course, 61.0, 5.0, {&line, 1}, 20.0);
+  const Filled reference(profile, 61.0, 5.0, {&line, 1}, 20.0);
   EXPECT_LT(reference.z[0][kUpsilon], line.speed);
   EXPECT_NEAR(reference.s.back(), line.s + line.speed * 20.0, 0.1);
   const StopLine standing{.s = 60.0};
-  EXPECT_EQ(Filled(course, 61.0, 0.0, {&standing, 1}, 2.0).s.back(), 61.0);
+  EXPECT_EQ(Filled(profile, 61.0, 0.0, {&standing, 1}, 2.0).s.back(), 61.0);
 }
 
 TEST(ProgressReference, StopsAtTheEndOfTheCourseAndStaysThere) {
-  const RoadProfile course(testing::StraightRoad(60.0, 10.0), {}, {});
-  const Filled reference(course, 20.0, 10.0, {}, 15.0);
+  const RoadProfile profile(testing::StraightRoad(60.0, 10.0), {}, {});
+  const Filled reference(profile, 20.0, 10.0, {}, 15.0);
   EXPECT_EQ(reference.z.back()[kUpsilon], 0.0);
   EXPECT_LE(reference.s.back(), 60.0 + 0.01);
   EXPECT_GT(reference.s.back(), 60.0 - 2.0 * RoadProfile::kStopWithin);
-  EXPECT_EQ(Filled(course, 61.0, 0.0, {}).s.back(), 61.0);
+  EXPECT_EQ(Filled(profile, 61.0, 0.0, {}).s.back(), 61.0);
 }
 
 }  // namespace

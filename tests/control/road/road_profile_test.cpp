@@ -24,10 +24,10 @@ Eigen::Vector2d Beside(const RoutePoint& point, double lateral) {
 
 TEST(RoadProfile, PointsAreThoseOfTheRouteWithinTheSagittaOfItsSamples) {
   const Route route = WindingRoad(kRadius, 12.0);
-  const RoadProfile course(route, {}, {});
+  const RoadProfile profile(route, {}, {});
   const double sagitta = RoadProfile::kSpacing * RoadProfile::kSpacing / (8.0 * kRadius);
   for (double s = -20.0; s < route.length() + 20.0; s += 0.13) {
-    const RoutePoint exact = route.At(s), point = course.At(s);
+    const RoutePoint exact = route.At(s), point = profile.At(s);
     EXPECT_LT(std::hypot(point.X - exact.X, point.Y - exact.Y), 1.1 * sagitta) << s;
     EXPECT_NEAR(point.psi, exact.psi, 1e-3) << s;
     EXPECT_NEAR(point.curvature, exact.curvature, 2e-3) << s;
@@ -37,11 +37,11 @@ TEST(RoadProfile, PointsAreThoseOfTheRouteWithinTheSagittaOfItsSamples) {
 TEST(RoadProfile, ProjectionFindsPlaceAndLateralOffsetOfAPointBesideTheCourse) {
   for (const Route& route :
        {StraightRoad(30.0, 12.0), WindingRoad(kRadius, 12.0), CircularRoad(kRadius, 0.6, 12.0)}) {
-    const RoadProfile course(route, {}, {});
+    const RoadProfile profile(route, {}, {});
     for (double s = -6.0; s < route.length() + 6.0; s += 0.37) {
       for (const double lateral : {-3.5, -1.0, 0.0, 1.0, 3.5}) {
         for (const double hint : {s - 4.0, s, s + 4.0}) {
-          const RouteProjection place = course.Project(Beside(route.At(s), lateral), hint);
+          const RouteProjection place = profile.Project(Beside(route.At(s), lateral), hint);
           EXPECT_NEAR(place.s, s, 0.05) << "lateral " << lateral << ", hint " << hint;
           EXPECT_NEAR(place.lateral, lateral, 0.005) << "at " << s << ", hint " << hint;
         }
@@ -52,23 +52,23 @@ TEST(RoadProfile, ProjectionFindsPlaceAndLateralOffsetOfAPointBesideTheCourse) {
 
 TEST(RoadProfile, ProjectionStaysOnTheLegThatTheHintIsOn) {
   const Route route = HairpinRoad(60.0, 6.0, 5.0);
-  const RoadProfile course(route, {}, {});
+  const RoadProfile profile(route, {}, {});
   const Eigen::Vector2d between(20.0, 3.0);
-  EXPECT_NEAR(course.Project(between, 22.0).s, 20.0, 0.05);
+  EXPECT_NEAR(profile.Project(between, 22.0).s, 20.0, 0.05);
   const double back = route.length() - 20.0;
-  EXPECT_NEAR(course.Project(between, back - 2.0).s, back, 0.05);
+  EXPECT_NEAR(profile.Project(between, back - 2.0).s, back, 0.05);
 }
 
 TEST(RoadProfile, SpeedKeepsToTheTargetTheCurvesAndTheBrakes) {
   const SpeedLimits limits{.lateral = 2.0, .acceleration = 1.5, .deceleration = 2.5};
   const Route route = WindingRoad(kRadius, 14.0);
-  const RoadProfile course(route, {}, limits);
+  const RoadProfile profile(route, {}, limits);
   const double in_the_curve = std::sqrt(limits.lateral * kRadius);
   double fastest = 0.0;
   constexpr double kStep = 0.1;
   for (double s = 0.0; s + kStep < route.length(); s += kStep) {
-    const RoutePoint point = course.At(s);
-    const double next = course.At(s + kStep).speed;
+    const RoutePoint point = profile.At(s);
+    const double next = profile.At(s + kStep).speed;
     EXPECT_LE(point.speed, 14.0 + 1e-9);
     // Between two samples both factors are interpolated.
     EXPECT_LE(point.speed * point.speed * std::abs(point.curvature), 1.01 * limits.lateral) << s;
@@ -76,11 +76,11 @@ TEST(RoadProfile, SpeedKeepsToTheTargetTheCurvesAndTheBrakes) {
     fastest = std::max(fastest, point.speed);
   }
   EXPECT_NEAR(fastest, 14.0, 1e-9);
-  EXPECT_NEAR(course.At(85.0).speed, in_the_curve, 1e-9);
-  EXPECT_NEAR(course.At(route.length() - 10.0).speed, std::sqrt(2.0 * 2.5 * 10.0), 1e-6);
-  EXPECT_EQ(course.At(route.length()).speed, 0.0);
-  EXPECT_EQ(course.At(route.length() + 5.0).speed, 0.0);
-  EXPECT_EQ(course.At(-5.0).speed, course.At(0.0).speed);
+  EXPECT_NEAR(profile.At(85.0).speed, in_the_curve, 1e-9);
+  EXPECT_NEAR(profile.At(route.length() - 10.0).speed, std::sqrt(2.0 * 2.5 * 10.0), 1e-6);
+  EXPECT_EQ(profile.At(route.length()).speed, 0.0);
+  EXPECT_EQ(profile.At(route.length() + 5.0).speed, 0.0);
+  EXPECT_EQ(profile.At(-5.0).speed, profile.At(0.0).speed);
 }
 
 TEST(RoadProfile, SlowerPieceIsReachedSlowly) {
@@ -88,9 +88,9 @@ TEST(RoadProfile, SlowerPieceIsReachedSlowly) {
       Route::FromPieces({}, 12.0,
                         std::array{RoutePiece{.length = 60.0}, RoutePiece{.length = 0.4, .speed = 4.0},
                                    RoutePiece{.length = 60.0}});
-  const RoadProfile course(route, {}, {.lateral = 3.0, .acceleration = 1.5, .deceleration = 2.0});
-  EXPECT_NEAR(course.At(61.0).speed, 4.0, 1e-9);
-  EXPECT_NEAR(course.At(50.0).speed, std::sqrt(16.0 + 4.0 * 10.5), 0.1);
+  const RoadProfile profile(route, {}, {.lateral = 3.0, .acceleration = 1.5, .deceleration = 2.0});
+  EXPECT_NEAR(profile.At(61.0).speed, 4.0, 1e-9);
+  EXPECT_NEAR(profile.At(50.0).speed, std::sqrt(16.0 + 4.0 * 10.5), 0.1);
 }
 
 TEST(StoppingSpeed, IsThatFromWhichTheBrakesStopInTime) {

@@ -1,4 +1,4 @@
-// LpvAffineMpc driving its own model along a course among obstacles, for tests.
+// LpvAffineMpc driving its own model along a road among obstacles, for tests.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -15,27 +15,27 @@
 
 namespace control::testing {
 
-class CourseLoop {
+class RoadLoop {
  public:
-  explicit CourseLoop(const Route& route, const LpvAffineSettings& settings = {}, const RoadBounds& road = {})
+  explicit RoadLoop(const Route& route, const LpvAffineSettings& settings = {}, const RoadBounds& road = {})
       : settings_(settings),
-        course_(route, road, {}),
-        mpc_(VehicleParameters{}, course_, settings),
+        profile_(route, road, {}),
+        mpc_(VehicleParameters{}, profile_, settings),
         model_(BlendedModel(VehicleParameters{}), settings.t_s) {
-    PlaceAt(0.0, course_.At(0.0).speed);
+    PlaceAt(0.0, profile_.At(0.0).speed);
   }
-  CourseLoop(const CourseLoop&) = delete;  // the controller keeps a pointer to the course
-  CourseLoop& operator=(const CourseLoop&) = delete;
+  RoadLoop(const RoadLoop&) = delete;  // the controller keeps a pointer to the road
+  RoadLoop& operator=(const RoadLoop&) = delete;
 
   void PlaceAt(double s, double speed, double lateral = 0.0) {
-    const RoutePoint point = course_.At(s);
+    const RoutePoint point = profile_.At(s);
     z_ << point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi), speed, 0.0,
         point.psi, 0.0;
     s_ = s;
   }
-  // A circle of this radius at `s`, `lateral` [m] left of the course.
+  // A circle of this radius at `s`, `lateral` [m] left of the road.
   [[nodiscard]] Obstacle ObstacleAt(double s, double lateral, double radius) const {
-    const RoutePoint point = course_.At(s);
+    const RoutePoint point = profile_.At(s);
     return {.id = 1,
             .X = point.X - lateral * std::sin(point.psi),
             .Y = point.Y + lateral * std::cos(point.psi),
@@ -46,7 +46,7 @@ class CourseLoop {
   State& z() { return z_; }
   Input& u() { return u_; }
   std::vector<Obstacle>& obstacles() { return obstacles_; }
-  [[nodiscard]] const RoadProfile& course() const { return course_; }
+  [[nodiscard]] const RoadProfile& profile() const { return profile_; }
   [[nodiscard]] const LpvAffineSettings& settings() const { return settings_; }
   LpvAffineMpc& mpc() { return mpc_; }
   [[nodiscard]] const DiscreteModel& model() const { return model_; }
@@ -62,12 +62,12 @@ class CourseLoop {
     const double backwards = -z_[kUpsilon] / settings_.t_s;  // brakes cannot drive backwards [m/s²]
     z_ = model_.Step(z_, {u_[kDelta], std::max(u_[kAcceleration], backwards)});
     for (Obstacle& obstacle : obstacles_) obstacle = Predict(obstacle, settings_.t_s);
-    const RouteProjection place = course_.Project(z_.head<2>(), s_);
+    const RouteProjection place = profile_.Project(z_.head<2>(), s_);
     s_ = place.s;
     lateral_ = place.lateral;
   }
   [[nodiscard]] double s() const { return s_; }
-  [[nodiscard]] double lateral() const { return lateral_; }  // to the left of the course [m]
+  [[nodiscard]] double lateral() const { return lateral_; }  // to the left of the road [m]
 
   // Points on the footprint's outline, in map coordinates.
   [[nodiscard]] std::vector<Eigen::Vector2d> Outline() const {
@@ -98,15 +98,15 @@ class CourseLoop {
   [[nodiscard]] double RoadMargin() const {
     double least = 1e300;
     for (const Eigen::Vector2d& point : Outline()) {
-      const double lateral = course_.Project(point, s_).lateral;
-      least = std::min({least, course_.road().left - lateral, lateral - course_.road().right});
+      const double lateral = profile_.Project(point, s_).lateral;
+      least = std::min({least, profile_.road().left - lateral, lateral - profile_.road().right});
     }
     return least;
   }
 
  private:
   LpvAffineSettings settings_;
-  RoadProfile course_;
+  RoadProfile profile_;
   LpvAffineMpc mpc_;
   DiscreteModel model_;
   std::vector<Obstacle> obstacles_;
@@ -124,8 +124,8 @@ inline double LargestDifference(std::span<const Input> a, std::span<const Input>
 }
 
 // A drive on a winding road with obstacles on both sides.
-struct BusyRoad : CourseLoop {
-  explicit BusyRoad(const LpvAffineSettings& with = {}) : CourseLoop(WindingRoad(30.0, 12.0), with) {
+struct BusyRoad : RoadLoop {
+  explicit BusyRoad(const LpvAffineSettings& with = {}) : RoadLoop(WindingRoad(30.0, 12.0), with) {
     obstacles() = {ObstacleAt(60.0, 0.5, 0.7), ObstacleAt(110.0, -0.5, 0.7)};
     obstacles()[1].id = 2;
   }

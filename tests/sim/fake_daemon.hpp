@@ -12,9 +12,9 @@
 
 namespace sim {
 
-class FakeController {
+class FakeDaemon {
  public:
-  FakeController(const bus::VehicleBus& bus, const control::Route& route) : bus_(&bus), route_(route) {}
+  FakeDaemon(const bus::VehicleBus& bus, const control::Route& route) : bus_(&bus), route_(route) {}
 
   // The answer if `frame` completes a state set; otherwise empty.
   std::vector<can::Frame> Receive(const can::Frame& frame) {
