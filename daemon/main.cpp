@@ -26,13 +26,13 @@ int main(int argc, char** argv) {
   CLI::App app("lpvmpcd: steers a vehicle along a route, over CAN");
   std::string file, interface, controller;
   bool check = false, lockstep = false;
-  app.add_option("--config", file, "configuration in TOML; required");
+  app.add_option("--config", file, "configuration file (TOML); required");
   app.add_option("--interface", interface, "CAN interface, instead of the configuration's");
   app.add_option("--controller", controller,
                  "lpv-affine, lpv or lpv-standard, instead of the configuration's");
-  app.add_flag("--lockstep", lockstep, "time by the vehicle's counter, as lpvmpc-sim --lockstep wants it");
+  app.add_flag("--lockstep", lockstep, "count time in cycles, as lpvmpc-sim --lockstep requires");
   app.add_flag("--check-config", check,
-               "read the configuration and all that it names, say what it is, and end");
+               "read the configuration and the files that it names, print a summary and exit");
   app.set_version_flag("--version", "lpvmpcd " LPVMPC_VERSION);
   const auto load = [&] {
     loop::Config config = loop::LoadConfig(file);

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   CLI::App program("lpvmpc: offline commands about the controller");
   program.require_subcommand(0, 1);
   program.footer(
-      "Exit status: 0 done; 1 expectations not met, or lines of a log not understood; 2 bad usage, input or "
+      "Exit status: 0 success; 1 expectations not met, or invalid lines in a log; 2 invalid usage, input or "
       "output.");
   program.set_version_flag("--version", "lpvmpc " LPVMPC_VERSION);
   const std::vector<tools::Command> commands = AddCommands(program);

@@ -235,7 +235,7 @@ TEST(Lpvmpc, RecordedProblemsOfARunAreSolvedByBenchQp) {
   EXPECT_EQ(cold["solved"], cold["instances"]);
   // Problems of two runs are not mixed, and a controller that solves none is reported.
   ExpectOneLine(run, HasSubstr(problems + " holds problems of another run"));
-  run.insert(run.end() - 1, {"--controller", "nmpc"});
+  run.insert(run.end() - 1, {"--controller", "nmpc-affine"});
   run[5] = problems + "2";
   ExpectOneLine(run, HasSubstr("nmpc-affine solves no quadratic problem"));
   EXPECT_FALSE(std::filesystem::exists(run[5]));

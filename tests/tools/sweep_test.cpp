@@ -81,7 +81,7 @@ TEST(SweepSetup, WhatCannotBeIsRefusedInTheWordsOfTheCommandLine) {
             "--mu: 0.05 1 must be LO HI with 0.1 <= LO <= HI <= 1.2");
   EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("pid"); }),
               AllOf(HasSubstr("pid"), HasSubstr("lpv-standard")));
-  EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("nmpc-affine"); }),
+  EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("nmpc"); }),
               AllOf(HasSubstr("nmpc-affine"), HasSubstr("lpv-standard, nmpc")));
   EXPECT_THAT(error([](SweepSetup& s) { s.controllers.emplace_back("lpv"); }),
               HasSubstr("lpv is named twice"));
@@ -168,8 +168,8 @@ TEST(SweepDrive, SlowestStartIsFastEnoughToEngage) {
 }
 
 // The cost of lpv-affine is compared with that of the nonlinear controller for the same problem.
-TEST(SweepConfig, NmpcHasTheProblemOfLpvAffine) {
-  const loop::Config affine = tools::ConfigFor("lpv-affine", {}), nmpc = tools::ConfigFor("nmpc", {});
+TEST(SweepConfig, NmpcAffineHasTheProblemOfLpvAffine) {
+  const loop::Config affine = tools::ConfigFor("lpv-affine", {}), nmpc = tools::ConfigFor("nmpc-affine", {});
   EXPECT_EQ(nmpc.controller, loop::ControllerKind::kNmpcAffine);
   EXPECT_EQ(HorizonOf(nmpc), HorizonOf(affine));
   EXPECT_EQ(nmpc.affine.mu, affine.affine.mu);
@@ -193,7 +193,7 @@ SweepResult MadeUp() {
                       .rms_steering_rate = 0.1 * cost,
                       .rms_jerk = cost};
   };
-  SweepResult result{.setup = {.seed = 1, .count = 4, .ranges = {}, .controllers = {"lpv", "nmpc"}},
+  SweepResult result{.setup = {.seed = 1, .count = 4, .ranges = {}, .controllers = {"lpv", "nmpc-affine"}},
                      .scenarios = {},
                      .times = {}};
   result.times.resize(2);
@@ -245,7 +245,7 @@ TEST(SweepText, TellsEachFailureWithSeedScenarioControllerAndReason) {
   EXPECT_THAT(
       text,
       HasSubstr(
-          "  102  one line; possible: none\n      lpv           made up\n      nmpc          made up\n"));
+          "  102  one line; possible: none\n      lpv           made up\n      nmpc-affine   made up\n"));
   EXPECT_THAT(text, testing::Not(HasSubstr("  100  ")));
   EXPECT_THAT(text, HasSubstr("lpvmpc run --sweep-seed SEED --speed 8 20 --mu 0.4 1 --controller NAME"));
 }
@@ -336,7 +336,7 @@ TEST_F(Parts, OfAnotherSweepAreRefusedWithTheirFile) {
   EXPECT_THAT(error([](SweepSetup& s) { s.ranges.mu.high = 1.1; }),
               AllOf(HasSubstr(place), HasSubstr("mu 0.4..1.1")));
   EXPECT_THAT(error([](SweepSetup& s) {
-                s.controllers = {"lpv", "nmpc"};
+                s.controllers = {"lpv", "nmpc-affine"};
               }),
               AllOf(HasSubstr(place), HasSubstr("lpv, nmpc")));
   EXPECT_THAT(ErrorOfMerge({first, Write(Made(Small(), {.index = 2, .of = 3}), "other")}),

@@ -11,16 +11,16 @@ namespace {
 Command AddBenchStep(CLI::App& bench) {
   const auto options = std::make_shared<BenchStepOptions>();
   options->scenario = Scenarios("whole_drive/scenario.toml");
-  CLI::App* command = bench.add_subcommand("step", "the whole control step along a drive");
-  command->add_option("--scenario", options->scenario, "scenario in TOML")->capture_default_str();
+  CLI::App* command = bench.add_subcommand("step", "time the whole control step along a drive");
+  command->add_option("--scenario", options->scenario, "scenario file (TOML)")->capture_default_str();
   command->add_option("--config", options->config, "daemon's configuration, instead of the scenario's");
   command->add_option("--controller", options->controller,
                       ControllerList() + ", instead of the configuration's");
-  command->add_option("--horizon", options->horizons, "N, one or several")->capture_default_str();
-  command->add_option("--repeat", options->repeat, "drives per horizon")
+  command->add_option("--horizon", options->horizons, "one or several horizons N")->capture_default_str();
+  command->add_option("--repeat", options->repeat, "number of drives per horizon")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "figures as JSON");
+  command->add_flag("--json", options->json, "print the figures as JSON");
   return {.app = command, .run = [options] {
             BenchStep(*options, std::cout);
             return 0;
@@ -29,12 +29,12 @@ Command AddBenchStep(CLI::App& bench) {
 
 Command AddBenchQp(CLI::App& bench) {
   const auto options = std::make_shared<BenchQpOptions>();
-  CLI::App* command = bench.add_subcommand("qp", "the QP solver on recorded problems");
+  CLI::App* command = bench.add_subcommand("qp", "time the QP solver on recorded problems");
   command->add_option("DIR", options->folder, "folder with problems *.qp; required");
-  command->add_option("--repeat", options->repeat, "solves of each problem")
+  command->add_option("--repeat", options->repeat, "number of solves of each problem")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "figures as JSON");
+  command->add_flag("--json", options->json, "print the figures as JSON");
   return {.app = command, .run = [command, options] {
             RequireOption(*command, "DIR");
             BenchQp(*options, std::cout);

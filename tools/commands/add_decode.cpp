@@ -26,7 +26,7 @@ int Decode(const std::string& log) {
 
 Command AddDecode(CLI::App& program) {
   const auto log = std::make_shared<std::string>("-");
-  CLI::App* command = program.add_subcommand("decode", "candump text to physical values");
+  CLI::App* command = program.add_subcommand("decode", "decode candump text to physical values");
   command->add_option("LOG", *log, "candump log; - for standard input")->capture_default_str();
   return {.app = command, .run = [log] { return Decode(*log); }};
 }

@@ -7,8 +7,8 @@ namespace tools {
 
 Command AddReport(CLI::App& program) {
   const auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = program.add_subcommand("report", "a page about a run, for any browser");
-  command->add_option("RUN_DIR", options->run_dir, "folder of a drive or of lpvmpc paper; required");
+  CLI::App* command = program.add_subcommand("report", "write an HTML page about a run");
+  command->add_option("RUN_DIR", options->run_dir, "folder written by lpvmpc run, paper or sweep; required");
   command->add_option("-o,--output", options->output, "HTML file to write; required");
   return {.app = command, .run = [command, options] {
             RequireOption(*command, "RUN_DIR");

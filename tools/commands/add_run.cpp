@@ -9,11 +9,12 @@ namespace tools {
 Command AddRun(CLI::App& program) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = program.add_subcommand("run", "drive a scenario in memory, without a bus");
-  CLI::Option* scenario = command->add_option("--scenario", options->scenario, "scenario in TOML");
-  CLI::Option* sweep_seed =
-      command->add_option("--sweep-seed", options->sweep_seed, "instead: seed of a scenario of a sweep")
-          ->check(Seeds())
-          ->excludes(scenario);
+  CLI::Option* scenario = command->add_option("--scenario", options->scenario, "scenario file (TOML)");
+  CLI::Option* sweep_seed = command
+                                ->add_option("--sweep-seed", options->sweep_seed,
+                                             "drive the scenario of this seed, as a sweep draws it")
+                                ->check(Seeds())
+                                ->excludes(scenario);
   AddRanges(*command, options->ranges);
   for (const char* range : {"--speed", "--mu"}) command->get_option(range)->needs(sweep_seed);
   command->add_option("--config", options->config, "daemon's configuration, instead of the scenario's")
@@ -27,7 +28,7 @@ Command AddRun(CLI::App& program) {
       ->excludes("--log");
   command->add_option("--record-qp", options->record_qp,
                       "write every quadratic problem of the controller into this folder, for bench qp");
-  command->add_flag("--json", options->json, "summary as JSON");
+  command->add_flag("--json", options->json, "print the summary as JSON");
   return {.app = command, .run = [command, options] {
             if (!options->sweep_seed) RequireOption(*command, "--scenario");
             return Run(*options, std::cout);

@@ -16,7 +16,7 @@ Command AddMerge(CLI::App& sweep) {
   command->add_option("FILE", options->parts, "parts, as sweep --shard wrote them; required");
   command->add_option("--out", options->out,
                       "write sweep.json, timing.json, report.json and report.html into this folder");
-  command->add_flag("--json", options->json, "all figures as JSON");
+  command->add_flag("--json", options->json, "print all figures as JSON");
   return {.app = command, .run = [command, options] {
             RequireOption(*command, "FILE");
             MergeSweep(*options, std::cout);
@@ -31,26 +31,26 @@ std::vector<Command> AddSweep(CLI::App& program) {
   options->jobs = Processors();
   options->setup.controllers = SweepControllers();
   CLI::App* command =
-      program.add_subcommand("sweep", "drive many scenarios drawn by chance")->require_subcommand(0, 1);
-  command->add_option("--count", options->setup.count, "scenarios; required")
+      program.add_subcommand("sweep", "drive many random scenarios")->require_subcommand(0, 1);
+  command->add_option("--count", options->setup.count, "number of scenarios; required")
       ->check(CLI::Range(1, 1'000'000));
-  command->add_option("--seed", options->setup.seed, "of the sweep; required")->check(Seeds());
+  command->add_option("--seed", options->setup.seed, "seed of the sweep; required")->check(Seeds());
   AddRanges(*command, options->setup.ranges);
   command
       ->add_option("--controller", options->setup.controllers,
                    fmt::format("one or several of {}", fmt::join(SweepControllers(), ", ")))
       ->default_str("all");
-  command->add_option("--jobs", options->jobs, "processes that drive")
+  command->add_option("--jobs", options->jobs, "number of processes that drive")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option_function<std::string>(
       "--shard", [options](const std::string& text) { options->shard = ParseShard(text); },
-      "i/n: drive the i-th of n parts alone and write it, for sweep merge");
+      "i/n: drive only the i-th of n parts and write it, for sweep merge");
   command->add_option(
       "--out", options->out,
       "write sweep.json, timing.json, report.json and report.html into this folder; with --shard, "
       "the part to this file");
-  command->add_flag("--json", options->json, "all figures as JSON");
+  command->add_flag("--json", options->json, "print all figures as JSON");
   return {AddMerge(*command), {.app = command, .run = [command, options] {
                                  RequireOption(*command, "--count");
                                  RequireOption(*command, "--seed");

@@ -12,7 +12,6 @@ constexpr double kMeanDelay = 0.05;
 
 std::string DaemonsName(const std::string& controller) {
   using enum loop::ControllerKind;
-  if (controller == kCostStandard) return loop::ControllerName(kNmpcAffine);
   if (controller == kFixedRadius) return loop::ControllerName(kLpvAffine);
   return controller;
 }
@@ -38,7 +37,7 @@ loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& rang
 std::vector<std::string> SweepControllers() {
   using enum loop::ControllerKind;
   return {loop::ControllerName(kLpvAffine), kFixedRadius, loop::ControllerName(kLpv),
-          loop::ControllerName(kLpvStandard), kCostStandard};
+          loop::ControllerName(kLpvStandard), loop::ControllerName(kNmpcAffine)};
 }
 
 config::RouteFile RouteFor(const RandomScenario& drawn, const loop::Config& config) {

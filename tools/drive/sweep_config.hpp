@@ -11,14 +11,13 @@
 
 namespace tools {
 
-inline constexpr const char* kCostStandard = "nmpc";             // the reference for the others' cost
-inline constexpr const char* kFixedRadius = "lpv-affine-fixed";  // does not adapt its trust radius
+inline constexpr const char* kFixedRadius =
+    "lpv-affine-fixed";  // lpv-affine that does not adapt its trust radius
 
 // The daemon's defaults, adapted to the ranges. For the paper's controllers, which treat the vehicle as a point,
 // obstacles are also enlarged by half the vehicle's width and the swing of a corner. The affine controllers assume the
 // lowest μ of the range and the mean delay, and plan 2 s ahead; the paper's controllers plan 0.4 s ahead, as in the
-// paper. "nmpc" here means nmpc-affine, the NMPC with lpv-affine's problem, the reference for the cost. Throws
-// std::invalid_argument if there is no such controller.
+// paper. Throws std::invalid_argument if there is no such controller.
 [[nodiscard]] loop::Config ConfigFor(const std::string& controller, const ScenarioRanges& ranges);
 
 // The names of the controllers that a sweep can drive.

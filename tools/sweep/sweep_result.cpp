@@ -29,7 +29,7 @@ std::optional<double> MedianOfPassed(const SweepResult& result, std::size_t cont
 
 std::optional<double> CostRatio(const SweepResult& result, std::size_t controller) {
   const auto& names = result.setup.controllers;
-  const auto nmpc = std::ranges::find(names, kCostStandard);
+  const auto nmpc = std::ranges::find(names, loop::ControllerName(loop::ControllerKind::kNmpcAffine));
   if (nmpc == names.end()) return std::nullopt;
   const auto standard = static_cast<std::size_t>(nmpc - names.begin());
   return MedianOfPassed(result, controller, [&](const SweptScenario& scenario) -> std::optional<double> {

@@ -53,7 +53,7 @@ void AppendFailures(const SweepResult& result, std::string& text) {
 
 std::string ToText(const SweepResult& result) {
   std::string text = fmt::format(
-      "{}\nthere is a way past the obstacles in {} of them, to stop before one in {}, neither in {}\n",
+      "{}\nthe obstacles can be passed in {} of them, only stopped before in {}, neither in {}\n",
       result.setup.Describe(), CountWays(result, PossibleWay::kPass), CountWays(result, PossibleWay::kStop),
       CountWays(result, PossibleWay::kNone));
   AppendTable(result, text);
