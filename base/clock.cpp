@@ -21,8 +21,8 @@ Time MonotonicNow() {
   return Read(CLOCK_MONOTONIC);
 }
 
-Time RealNow() {
-  return Read(CLOCK_REALTIME);
+std::chrono::sys_time<Time> RealNow() {
+  return std::chrono::sys_time<Time>(Read(CLOCK_REALTIME));
 }
 
 Timer::Timer()

@@ -9,7 +9,7 @@ namespace base {
 // CLOCK_MONOTONIC, the daemon's clock.
 [[nodiscard]] Time MonotonicNow();
 // CLOCK_REALTIME, the clock of the kernel's frame timestamps. It may be set at any time.
-[[nodiscard]] Time RealNow();
+[[nodiscard]] std::chrono::sys_time<Time> RealNow();
 
 // A timer on CLOCK_MONOTONIC. A failed system call throws std::runtime_error.
 class Timer {

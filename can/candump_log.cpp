@@ -93,7 +93,7 @@ bool ReadTime(Reader& reader, Time& time) {
   if (decimals.size() != 6 || !ReadDecimal(decimals, 999'999, microseconds)) {
     return reader.FailAt(begin, "expected six decimals of the time");
   }
-  time = std::chrono::seconds(seconds) + std::chrono::microseconds(microseconds);
+  time = Time(std::chrono::seconds(seconds) + std::chrono::microseconds(microseconds));
   return reader.Expect(")", "')' after the time");
 }
 
@@ -187,7 +187,8 @@ tl::expected<std::optional<LogEntry>, std::string> ParseCandumpLine(std::string_
 }
 
 std::string FormatCandumpLine(const Frame& frame, std::string_view interface) {
-  const auto microseconds = std::chrono::duration_cast<std::chrono::microseconds>(frame.timestamp).count();
+  const auto microseconds =
+      std::chrono::floor<std::chrono::microseconds>(frame.timestamp.time_since_epoch()).count();
   char text[64];
   std::snprintf(text, sizeof(text), "(%010" PRId64 ".%06" PRId64 ") ", std::int64_t{microseconds / 1'000'000},
                 std::int64_t{microseconds % 1'000'000});

@@ -9,8 +9,9 @@
 
 namespace can {
 
-// Time since the epoch of whichever clock stamped the frame; a Socket stamps with CLOCK_REALTIME.
-using Time = std::chrono::nanoseconds;
+// Time at which a frame was stamped: by CLOCK_REALTIME at a Socket, by the simulation's own clock in memory. It is a
+// type of its own, so that it is not mistaken for the monotonic time inside the daemon (base::Time).
+using Time = std::chrono::sys_time<std::chrono::nanoseconds>;
 
 inline constexpr std::uint32_t kMaxStandardId = 0x7FF;
 inline constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;

@@ -212,7 +212,8 @@ ReceiveStatus Socket::Receive(Received& received) {
     if (item->cmsg_type == SO_TIMESTAMPNS) {
       timespec time{};
       std::memcpy(&time, CMSG_DATA(item), sizeof(time));
-      received.frame.timestamp = std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+      received.frame.timestamp =
+          Time(std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
     } else if (item->cmsg_type == SO_RXQ_OVFL) {
       std::uint32_t counter = 0;
       std::memcpy(&counter, CMSG_DATA(item), sizeof(counter));

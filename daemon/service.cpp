@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/signals.hpp"
 #include "base/system_call.hpp"
 #include "can/interface.hpp"
 
@@ -23,16 +24,6 @@ using namespace std::chrono_literals;
 
 constexpr int kFramesAtOnce = 4096;  // more than a full receive buffer holds; afterwards the timer is served
 constexpr base::Time kRetryPeriod = 100ms;
-
-int BlockedSignals() {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int signal : {SIGTERM, SIGINT, SIGUSR1, SIGHUP}) {
-    sigaddset(&set, signal);
-  }
-  ::sigprocmask(SIG_BLOCK, &set, nullptr);
-  return base::Checked(::signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC), "signalfd");
-}
 
 can::SocketOptions Options(const loop::ControlLoop& loop) {
   can::SocketOptions options;
@@ -66,7 +57,7 @@ Service::Service(const loop::ServiceSettings& settings, loop::ControlLoop& loop,
       loop_(&loop),
       reload_(std::move(reload)),
       socket_(settings.interface, Options(loop)),
-      signals_(BlockedSignals()),
+      signals_(base::BlockSignals({SIGTERM, SIGINT, SIGUSR1, SIGHUP})),
       epoll_(base::Checked(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1")),
       transmitter_(
           loop.gate(), [this](const can::Frame& frame) { return socket_.Send(frame); }, base::MonotonicNow),

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <fmt/format.h>
 #include <poll.h>
 #include <stdexcept>
-#include <sys/signalfd.h>
 #include <thread>
-#include <unistd.h>
 
+#include "base/clock.hpp"
 #include "sim/progress.hpp"
 
 namespace sim {
@@ -23,20 +21,6 @@ constexpr milliseconds kRetry{2};  // between attempts to send into a full queue
 constexpr milliseconds kPacedSendLimit{20};  // after it the cycle's other frames are lost, as on a bus
 constexpr std::chrono::duration<double> kPeriod{kCycleTime};
 
-int OpenSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  const int fd = signalfd(-1, &signals, SFD_NONBLOCK | SFD_CLOEXEC);
-  if (fd < 0) throw std::runtime_error(fmt::format("signalfd: {}", std::strerror(errno)));
-  return fd;
-}
-
-can::Time Now() {
-  return std::chrono::duration_cast<can::Time>(std::chrono::system_clock::now().time_since_epoch());
-}
-
 }  // namespace
 
 std::vector<can::Filter> ControllerFilters(const bus::VehicleBus& bus) {
@@ -46,17 +30,13 @@ std::vector<can::Filter> ControllerFilters(const bus::VehicleBus& bus) {
           can::ExactStandardId(bus.Info<bus::ConstraintReport>().id)};
 }
 
-BusRun::BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket,
+BusRun::BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket, int stop_signals,
                const BusRunSettings& settings)
     : socket_(&socket),
       settings_(settings),
       vehicle_(scenario, bus),
       recorder_(scenario),
-      signal_fd_(OpenSignals()) {}
-
-BusRun::~BusRun() {
-  close(signal_fd_);
-}
+      stop_signals_(stop_signals) {}
 
 Summary BusRun::Run() {
   WaitForController();
@@ -100,7 +80,7 @@ bool BusRun::HandleUntil(Clock::time_point deadline, const Condition& until) {
         .tv_sec = seconds.count(),
         .tv_nsec = std::chrono::duration_cast<std::chrono::nanoseconds>(left - seconds).count()};
     std::array<pollfd, 2> fds{pollfd{.fd = socket_->fd(), .events = POLLIN, .revents = 0},
-                              pollfd{.fd = signal_fd_, .events = POLLIN, .revents = 0}};
+                              pollfd{.fd = stop_signals_, .events = POLLIN, .revents = 0}};
     if (ppoll(fds.data(), fds.size(), &timeout, nullptr) < 0 && errno != EINTR) {
       throw std::runtime_error(fmt::format("poll: {}", std::strerror(errno)));
     }
@@ -110,7 +90,7 @@ bool BusRun::HandleUntil(Clock::time_point deadline, const Condition& until) {
 }
 
 bool BusRun::SendCycle(Clock::time_point deadline) {
-  for (const can::Frame& frame : vehicle_.Sense(Now())) {
+  for (const can::Frame& frame : vehicle_.Sense(base::RealNow())) {
     can::SendStatus status = socket_->Send(frame);
     while (status == can::SendStatus::kQueueFull || status == can::SendStatus::kInterfaceDown) {
       if (Clock::now() >= deadline) return false;

@@ -30,10 +30,9 @@ struct BusRunSettings {
 
 class BusRun {
  public:
-  // All references must outlive the BusRun.
-  BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket,
+  // All references must outlive the BusRun. `stop_signals`: a signalfd(2); a signal from it ends the run.
+  BusRun(const Scenario& scenario, const bus::VehicleBus& bus, can::Socket& socket, int stop_signals,
          const BusRunSettings& settings);
-  ~BusRun();
   BusRun(const BusRun&) = delete;
   BusRun& operator=(const BusRun&) = delete;
 
@@ -61,7 +60,7 @@ class BusRun {
   BusRunSettings settings_;
   VirtualVehicle vehicle_;
   Recorder recorder_;
-  int signal_fd_;
+  int stop_signals_;
   bool interrupted_ = false;
   std::uint64_t late_cycles_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/signals.hpp"
 #include "bus/vehicle_bus.hpp"
 #include "can/socket.hpp"
 #include "sim/bus_run.hpp"
@@ -19,16 +20,8 @@ constexpr int kPassed = 0;
 constexpr int kFailed = 1;
 constexpr int kBadInput = 2;
 
-// Must come before anything else: BusRun takes these signals from a file descriptor.
-void BlockSignals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  sigprocmask(SIG_BLOCK, &signals, nullptr);
-}
-
-int Drive(const sim::Options& options) {
+// `stop_signals`: a descriptor that reads the signals that end the drive.
+int Drive(const sim::Options& options, int stop_signals) {
   std::optional<sim::Scenario> scenario;
   const bus::VehicleBus bus;
   std::optional<can::Socket> socket;
@@ -40,7 +33,7 @@ int Drive(const sim::Options& options) {
     return kBadInput;
   }
   const auto timeout = std::chrono::duration<double>(options.timeout);
-  sim::BusRun run(*scenario, bus, *socket,
+  sim::BusRun run(*scenario, bus, *socket, stop_signals,
                   {.lockstep = options.lockstep,
                    .controller_timeout = std::chrono::duration_cast<std::chrono::milliseconds>(timeout)});
   const sim::Summary summary = run.Run();
@@ -54,12 +47,12 @@ int Drive(const sim::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  BlockSignals();
-  int exit_code = kPassed;
-  const std::optional<sim::Options> options = sim::ParseOptions(argc, argv, exit_code);
-  if (!options) return exit_code;
   try {
-    return Drive(*options);
+    // First of all: no thread may start before.
+    const base::FileDescriptor stop_signals = base::BlockSignals({SIGINT, SIGTERM});
+    int exit_code = kPassed;
+    const std::optional<sim::Options> options = sim::ParseOptions(argc, argv, exit_code);
+    return options ? Drive(*options, stop_signals.get()) : exit_code;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lpvmpc-sim: %s\n", error.what());
     return kFailed;

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "config/qp_file.hpp"
 #include "control/qp/dual_active_set.hpp"
 #include "control/qp/solver.hpp"
 #include "tests/control/random.hpp"
-#include "tools/bench/qp_instance.hpp"
 
 namespace control {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 // The solver's parts after a solve, all working on one problem.
 struct Kernels {
   explicit Kernels(const std::string& name)
-      : qp(tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build()),
+      : qp(config::QpFile(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build()),
         solver(qp.horizon()),
         unconstrained(qp.horizon()),
         bounds(qp.horizon()),

@@ -3,14 +3,14 @@
 #include <benchmark/benchmark.h>
 #include <string>
 
+#include "config/qp_file.hpp"
 #include "control/qp/solver.hpp"
-#include "tools/bench/qp_instance.hpp"
 
 namespace control {
 namespace {
 
 OcpQp<8, 2> Read(const std::string& name) {
-  return tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build();
+  return config::QpFile(LPVMPC_TEST_DATA "/qp/" + name + ".qp").Build();
 }
 
 void Solve(benchmark::State& state, const OcpQp<8, 2>& qp, const OcpQpPoint<8, 2>* warm_start) {

@@ -71,7 +71,7 @@ TEST(CanUtils, CanplayerPlaysOurLog) {
   const TempDir folder;
   {
     std::ofstream log(folder / "candump.log");
-    Time time = seconds(1'700'000'000);
+    Time time(seconds(1'700'000'000));
     for (Frame frame : frames) {
       frame.timestamp = time;
       time += std::chrono::milliseconds(1);

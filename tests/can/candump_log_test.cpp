@@ -32,7 +32,7 @@ TEST(CandumpLog, StandardFrame) {
   ASSERT_TRUE(result && *result);
   EXPECT_EQ((*result)->interface, "vcan0");
   const Frame& frame = (*result)->frame;
-  EXPECT_EQ(frame.timestamp, std::chrono::seconds(1700000000) + std::chrono::microseconds(123456));
+  EXPECT_EQ(frame.timestamp, Time(std::chrono::seconds(1700000000) + std::chrono::microseconds(123456)));
   EXPECT_EQ(frame.id, 0x123U);
   EXPECT_FALSE(frame.extended);
   EXPECT_EQ(frame.kind, FrameKind::kData);
@@ -117,7 +117,7 @@ TEST(CandumpLog, ErrorsNameColumnAndReason) {
 }
 
 TEST(CandumpLog, LineIsWrittenAsCandumpWritesIt) {
-  Frame frame{.id = 0x12, .length = 2, .timestamp = std::chrono::nanoseconds(1'000'002'999)};
+  Frame frame{.id = 0x12, .length = 2, .timestamp = Time(std::chrono::nanoseconds(1'000'002'999))};
   frame.data[0] = std::byte{0xAB};
   EXPECT_EQ(FormatCandumpLine(frame, "vcan0"), "(0000000001.000002) vcan0 012#AB00");
 }
@@ -138,7 +138,8 @@ Frame AnyFrame() {
       frame.data[i] = static_cast<std::byte>(*rc::gen::arbitrary<std::uint8_t>());
     }
   }
-  frame.timestamp = std::chrono::microseconds(*rc::gen::inRange<std::int64_t>(0, 4'000'000'000'000'000));
+  frame.timestamp =
+      Time(std::chrono::microseconds(*rc::gen::inRange<std::int64_t>(0, 4'000'000'000'000'000)));
   return frame;
 }
 

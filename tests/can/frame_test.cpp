@@ -42,7 +42,7 @@ TEST(Frame, RemoteFrameHasNoPayload) {
 TEST(Frame, TimeAndBytesBehindTheLengthDoNotShowOnTheWire) {
   Frame a{.id = 1, .length = 1};
   Frame b = a;
-  b.timestamp = Time(5);
+  b.timestamp = Time(std::chrono::nanoseconds(5));
   b.data[1] = std::byte{7};
   EXPECT_TRUE(SameOnWire(a, b));
   b.data[0] = std::byte{7};

@@ -73,7 +73,7 @@ TEST_F(Interface, DeletedAndMadeAnewIsUsedAgainAfterReopen) {
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].frame.id, 0x20U);
   EXPECT_TRUE(all[0].own) << "the options are kept";
-  EXPECT_GT(all[0].frame.timestamp, Time(0));
+  EXPECT_GT(all[0].frame.timestamp, Time{});
 }
 
 TEST_F(Interface, ReopenOfASocketThatIsBoundChangesNothing) {

@@ -53,9 +53,9 @@ TEST(SocketOnVcan, FramesOfEveryKindArriveAsSent) {
 TEST(SocketOnVcan, TimeStampsAreThoseOfTheKernelsClockAndNeverFall) {
   Socket sender("vcan0");
   Socket receiver("vcan0");
-  const Time before = std::chrono::system_clock::now().time_since_epoch();
+  const Time before = std::chrono::system_clock::now();
   for (int i = 0; i < 100; ++i) ASSERT_EQ(sender.Send(MakeFrame(0x100)), SendStatus::kSent);
-  const Time after = std::chrono::system_clock::now().time_since_epoch();
+  const Time after = std::chrono::system_clock::now();
   const std::vector<Received> all = Drain(receiver);
   ASSERT_EQ(all.size(), 100U);
   Time last = before;

@@ -97,7 +97,7 @@ testing::AssertionResult BusWatch::Reaches(bus::Mode mode) {
 }
 
 can::Time Now() {
-  return std::chrono::duration_cast<can::Time>(std::chrono::system_clock::now().time_since_epoch());
+  return std::chrono::system_clock::now();
 }
 
 void Service::SetUpTestSuite() {

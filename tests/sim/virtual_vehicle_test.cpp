@@ -46,8 +46,9 @@ TEST_F(VirtualVehicleTest, SendsItsFramesInTheOrderOfTheBusContract) {
 
 TEST_F(VirtualVehicleTest, FramesCarryTheTimeTheyAreSensedAt) {
   VirtualVehicle vehicle(files_.Load(""), bus_);
-  for (const can::Frame& frame : vehicle.Sense(std::chrono::seconds(7))) {
-    EXPECT_EQ(frame.timestamp, std::chrono::seconds(7));
+  const can::Time now(std::chrono::seconds(7));
+  for (const can::Frame& frame : vehicle.Sense(now)) {
+    EXPECT_EQ(frame.timestamp, now);
   }
 }
 

@@ -83,8 +83,9 @@ TEST_F(DriveRecordTest, LostStateSetsLeaveAGapInTime) {
 TEST_F(DriveRecordTest, SilenceLongerThanATurnOfTheCounterIsSeenByTheTime) {
   std::vector<can::Frame> frames = frames_;
   using namespace std::chrono_literals;
-  std::erase_if(frames,
-                [](const can::Frame& frame) { return frame.timestamp > 10s && frame.timestamp < 15s; });
+  std::erase_if(frames, [](const can::Frame& frame) {
+    return frame.timestamp > can::Time(10s) && frame.timestamp < can::Time(15s);
+  });
   EXPECT_EQ(Record(frames).samples.back().cycle, Record(frames_).samples.back().cycle);
 }
 
@@ -145,7 +146,7 @@ TEST_F(DriveRecordTest, PositionOfAMovingObstacleIsMovedBackToTheStart) {
   (void)tools::DriveClosedLoop(scenario, loop::LoadConfig(kDemo / "lpvmpcd.toml"),
                                {.frame = [&](const can::Frame& frame) {
                                  whole.Take(frame);
-                                 const bool lost = frame.timestamp < std::chrono::seconds(5);
+                                 const bool lost = frame.timestamp < can::Time(std::chrono::seconds(5));
                                  if (!lost || !Is<bus::ObstaclePosition>(frame)) late.Take(frame);
                                }});
   ASSERT_EQ(whole.record().obstacles.size(), 1u);

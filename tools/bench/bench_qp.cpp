@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/qp_file.hpp"
 #include "control/qp/solver.hpp"
-#include "tools/bench/qp_instance.hpp"
 #include "tools/bench/times.hpp"
 
 namespace tools {
@@ -21,7 +21,7 @@ using Solver = control::OcpQpSolver<8, 2>;
 
 struct Named {
   std::string series;
-  QpInstance instance;
+  config::QpFile instance;
 };
 
 struct Line {
@@ -44,7 +44,7 @@ std::map<int, std::vector<Named>> ReadFolder(const std::filesystem::path& folder
   std::map<int, std::vector<Named>> by_horizon;
   for (const std::filesystem::path& file : files) {
     const std::string name = file.stem().string();
-    QpInstance instance(file);
+    config::QpFile instance(file);
     const int horizon = instance.horizon();
     by_horizon[horizon].push_back(
         {.series = name.substr(0, name.rfind('_')), .instance = std::move(instance)});

@@ -1,4 +1,4 @@
-// `lpvmpc bench qp`: time of the QP solver on recorded problems (tools/bench/qp_instance.hpp), cold and warm, without
+// `lpvmpc bench qp`: time of the QP solver on recorded problems (config/qp_file.hpp), cold and warm, without
 // and with building the problem from its numbers.
 #pragma once
 

@@ -47,7 +47,7 @@ class Decoder {
  private:
   [[nodiscard]] static std::string TimeOf(const can::Frame& frame) {
     const long long microseconds =
-        std::chrono::duration_cast<std::chrono::microseconds>(frame.timestamp).count();
+        std::chrono::floor<std::chrono::microseconds>(frame.timestamp.time_since_epoch()).count();
     char text[40];
     std::snprintf(text, sizeof text, "(%010lld.%06lld)", microseconds / 1'000'000, microseconds % 1'000'000);
     return text;

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "can/candump_log.hpp"
+#include "config/qp_file.hpp"
 #include "config/text_file.hpp"
-#include "tools/bench/qp_instance.hpp"
 #include "tools/drive/closed_loop.hpp"
 #include "tools/drive/drive_file.hpp"
 #include "tools/drive/scenario_config.hpp"
@@ -67,7 +67,7 @@ control::QpObserver Recorder(const std::filesystem::path& folder) {
   return [folder, count = 0](const control::VehicleQp& qp) mutable {
     if (count == 0) MakeFolder(folder);
     std::ostringstream text;
-    WriteQpInstance(qp, text);
+    config::WriteQpFile(qp, text);
     WriteFile(folder / fmt::format("qp_{:06}.qp", count++), text.str());
   };
 }

@@ -20,7 +20,7 @@ struct RunOptions {
   std::string controller;     // empty: that of the configuration, or lpv-affine for a sweep's scenario
   std::filesystem::path log;  // candump log of every frame; empty: none
   std::filesystem::path out;  // folder for candump.log, summary.json, drive.toml and report.html; empty: none
-  // Folder for the controller's quadratic problems (tools/bench/qp_instance.hpp); empty: none.
+  // Folder for the controller's quadratic problems (config/qp_file.hpp); empty: none.
   std::filesystem::path record_qp;
   bool json = false;
 };

@@ -41,12 +41,12 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& 
   loop::Assembly controller(untimed, route, base::MonotonicNow, make);
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);
-  for (can::Time now{}; !recorder.finished(); now += config.loop.period) {
-    for (const can::Frame& frame : vehicle.Sense(now)) {
+  for (base::Time now{}; !recorder.finished(); now += config.loop.period) {
+    for (const can::Frame& frame : vehicle.Sense(can::Time(now))) {
       if (hooks.frame) hooks.frame(frame);
       if (!controller.loop().Receive(frame, now)) continue;
       for (can::Frame answer : controller.loop().Cycle(now, loop::Trigger::kState)) {
-        answer.timestamp = now;
+        answer.timestamp = can::Time(now);
         if (hooks.frame) hooks.frame(answer);
         vehicle.Receive(answer);
       }

@@ -5,13 +5,13 @@
 #include <limits>
 #include <memory>
 
+#include "config/qp_file.hpp"
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "control/mpc/lpv_mpc.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/mpc/closed_loop.hpp"
 #include "tests/control/mpc/road_loop.hpp"
 #include "tests/support/allocations.hpp"
-#include "tools/bench/qp_instance.hpp"
 
 static std::size_t c_allocations = 0;
 
@@ -55,7 +55,7 @@ TEST(Allocations, AreCounted) {
 }
 
 TEST(Allocations, SolverTakesNone) {
-  const OcpQp<8, 2> qp = tools::QpInstance(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp").Build();
+  const OcpQp<8, 2> qp = config::QpFile(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp").Build();
   OcpQp<8, 2> infeasible = qp, exact = qp, broken = qp;
   ASSERT_TRUE(infeasible.stages[4].AddStateBound(2, 90.0, kNoBound));
   ASSERT_TRUE(exact.stages[4].AddStateBound(2, 90.0, kNoBound, 1.0, 10.0));

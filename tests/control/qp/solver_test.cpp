@@ -9,10 +9,10 @@
 #include <sstream>
 #include <string>
 
+#include "config/qp_file.hpp"
 #include "control/qp/solver.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/qp/random_qp.hpp"
-#include "tools/bench/qp_instance.hpp"
 
 namespace control {
 namespace {
@@ -46,7 +46,7 @@ std::map<std::string, Recorded> RecordedOptima() {
 }
 
 Qp ReadInstance(const std::string& name) {
-  return tools::QpInstance(LPVMPC_TEST_DATA "/qp/" + name).Build();
+  return config::QpFile(LPVMPC_TEST_DATA "/qp/" + name).Build();
 }
 
 // By the active set where it may know rows, by the interior point where it may not, by either where it may know few.

@@ -14,15 +14,15 @@
 
 #include "control/qp/problem.hpp"
 
-namespace tools {
+namespace config {
 
 // The numbers of a file, from which a problem can be built repeatedly.
-class QpInstance {
+class QpFile {
  public:
   // Throws std::runtime_error "FILE:LINE: what is wrong" if the file is unreadable, contains a word that is not a
   // number, too few or too many numbers, has other than 8 states and 2 inputs, N outside 1..1000, or more rows in a
   // step than control::kMaxRows.
-  explicit QpInstance(const std::filesystem::path& file);
+  explicit QpFile(const std::filesystem::path& file);
 
   [[nodiscard]] int horizon() const { return horizon_; }
   // `qp` must have the same horizon. Does not allocate.
@@ -36,6 +36,6 @@ class QpInstance {
 };
 
 // Writes all digits, so that the problem reads back unchanged.
-void WriteQpInstance(const control::OcpQp<8, 2>& qp, std::ostream& out);
+void WriteQpFile(const control::OcpQp<8, 2>& qp, std::ostream& out);
 
-}  // namespace tools
+}  // namespace config

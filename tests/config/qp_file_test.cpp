@@ -1,4 +1,4 @@
-#include "tools/bench/qp_instance.hpp"
+#include "config/qp_file.hpp"
 
 #include <fstream>
 #include <gtest/gtest.h>
@@ -12,19 +12,19 @@ using Qp = control::OcpQp<8, 2>;
 
 std::string Text(const Qp& qp) {
   std::ostringstream out;
-  tools::WriteQpInstance(qp, out);
+  config::WriteQpFile(qp, out);
   return out.str();
 }
 
-TEST(QpInstance, WhatIsWrittenReadsBackTheSame) {
-  Qp qp = tools::QpInstance(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp").Build();
+TEST(QpFile, WhatIsWrittenReadsBackTheSame) {
+  Qp qp = config::QpFile(LPVMPC_TEST_DATA "/qp/s7trN15_0044.qp").Build();
   EXPECT_EQ(qp.horizon(), 15);
   const test_support::TempDir folder;
   const auto file = folder.path() / "a.qp";
   for (const double sigma : {0.0, 0.1}) {
     ASSERT_TRUE(qp.stages[3].AddStateBound(2, -control::kNoBound, 1.0 / 3.0, 10.0, sigma));
     std::ofstream(file) << Text(qp);
-    const Qp again = tools::QpInstance(file).Build();
+    const Qp again = config::QpFile(file).Build();
     EXPECT_EQ(Text(again), Text(qp));
     const auto& row = again.stages[3].rows[static_cast<std::size_t>(again.stages[3].row_count) - 1];
     EXPECT_FALSE(row.has_lo());

@@ -1,4 +1,4 @@
-#include "tools/bench/qp_instance.hpp"
+#include "config/qp_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +12,7 @@
 
 #include "config/text_file.hpp"
 
-namespace tools {
+namespace config {
 namespace {
 
 using control::kNoBound;
@@ -26,7 +26,7 @@ constexpr std::string_view kSigma = "sigma";
 // Splits a file into words and counts its lines.
 class Words {
  public:
-  explicit Words(const std::filesystem::path& file) : file_(file), text_(config::ReadTextFile(file)) {}
+  explicit Words(const std::filesystem::path& file) : file_(file), text_(ReadTextFile(file)) {}
 
   // The next word; empty at the end of the file.
   std::string_view Next() {
@@ -43,7 +43,7 @@ class Words {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty()) Fail("ends too early");
     if (error != std::errc{} || end != word.data() + word.size() || std::isnan(value))
-      Fail(fmt::format("{}: not a number", config::Printable(word)));
+      Fail(fmt::format("{}: not a number", Printable(word)));
     return value;
   }
   int Whole(std::string_view word, const char* name, int least, int most) const {
@@ -53,7 +53,7 @@ class Words {
     return static_cast<int>(value);
   }
   [[noreturn]] void Fail(const std::string& what) const {
-    throw std::runtime_error(fmt::format("{}:{}: {}", config::PlaceName(file_), line_, what));
+    throw std::runtime_error(fmt::format("{}:{}: {}", PlaceName(file_), line_, what));
   }
 
  private:
@@ -81,7 +81,7 @@ class Numbers {
 
 }  // namespace
 
-QpInstance::QpInstance(const std::filesystem::path& file) {
+QpFile::QpFile(const std::filesystem::path& file) {
   Words words(file);
   std::string_view first = words.Next();
   sigma_ = first == kSigma;
@@ -99,10 +99,10 @@ QpInstance::QpInstance(const std::filesystem::path& file) {
     take(rows * (kNx + kNu + (sigma_ ? 4 : 3)));
   }
   if (const std::string_view rest = words.Next(); !rest.empty())
-    words.Fail(fmt::format("{}: nothing more was expected", config::Printable(rest)));
+    words.Fail(fmt::format("{}: nothing more was expected", Printable(rest)));
 }
 
-void QpInstance::Build(Qp& qp) const {
+void QpFile::Build(Qp& qp) const {
   Numbers numbers(numbers_);
   const auto stages = std::span(qp.stages), inputs = stages.first(stages.size() - 1);
   numbers.Fill(qp.x0);
@@ -135,13 +135,13 @@ void QpInstance::Build(Qp& qp) const {
   }
 }
 
-Qp QpInstance::Build() const {
+Qp QpFile::Build() const {
   Qp qp(horizon_);
   Build(qp);
   return qp;
 }
 
-void WriteQpInstance(const Qp& qp, std::ostream& out) {
+void WriteQpFile(const Qp& qp, std::ostream& out) {
   const auto stages = std::span(qp.stages), inputs = stages.first(stages.size() - 1);
   const auto rows_of = [](const auto& stage) {
     return std::span(stage.rows).first(static_cast<std::size_t>(stage.row_count));
@@ -182,4 +182,4 @@ void WriteQpInstance(const Qp& qp, std::ostream& out) {
   }
 }
 
-}  // namespace tools
+}  // namespace config
