@@ -2,10 +2,11 @@
 
 namespace loop {
 
-void CommandSource::Observe(const VehicleState& state, bool commanding) {
+const control::Input& CommandSource::Applied(const VehicleState& state, bool commanding) {
   if (!commanding && state.complete) {
     applied_ = state.feedback;
   }
+  return applied_;
 }
 
 safety::LimitResult CommandSource::Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,

@@ -21,8 +21,8 @@ class CommandSource {
   CommandSource(const safety::CommandLimits& limits, const control::PathStop& stop, double stop_deceleration)
       : limiter_(limits), stop_(stop), stop_deceleration_(stop_deceleration) {}
 
-  // While commands are disabled, the measured inputs count as applied.
-  void Observe(const VehicleState& state, bool commanding);
+  // The input that acts on the vehicle: the last command or, while commands are disabled, the measured inputs.
+  [[nodiscard]] const control::Input& Applied(const VehicleState& state, bool commanding);
 
   // The command for `step`, which the plan must cover if the mode drives. No command if the limiter refuses it.
   [[nodiscard]] safety::LimitResult Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,
@@ -32,13 +32,12 @@ class CommandSource {
   [[nodiscard]] safety::LimitResult Measured(const VehicleState& state) const;
 
   // A later stop runs beside the route at the offset at which `plan` ends; its N + 1 states begin at the vehicle.
-  void Follow(std::span<const control::State> plan, const control::RouteMotion& motion) {
+  void PlanStop(std::span<const control::State> plan, const control::RouteMotion& motion) {
     stop_offset_ = stop_.OffsetOf(plan, motion);
   }
 
   // To be called with each command that is sent enabled.
   void Apply(const safety::LimitedCommand& command) { applied_ = command.u(); }
-  [[nodiscard]] const control::Input& applied() const { return applied_; }
 
   void Reconfigure(double stop_deceleration) { stop_deceleration_ = stop_deceleration; }
 

@@ -17,6 +17,13 @@ LoopSettings WithinHorizon(LoopSettings settings, int horizon) {
   return settings;
 }
 
+PlanRequest RequestOf(const safety::ModeState& mode, const safety::ModeInputs& inputs) {
+  if (safety::EngagementRequested(mode, inputs)) return PlanRequest::kFirst;
+  if (!bus::Drives(mode.mode)) return PlanRequest::kNone;
+  const bool possible = inputs.state_new && inputs.state_fresh && inputs.route_left > 0;
+  return possible ? PlanRequest::kNext : PlanRequest::kNoState;
+}
+
 }  // namespace
 
 ControlLoop::ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bus,
@@ -58,28 +65,28 @@ bool ControlLoop::Receive(const can::Frame& frame, base::Time now) {
 }
 
 std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) {
-  planner_.Start();
+  planner_.StartStopwatch();
   const safety::ModeState before = mode_;
   const bool commanding = bus::Commands(before.mode);
 
   // 1. The snapshot of the inputs, and the vehicle's place on the route.
   const Snapshot known = inbox_.TakeSnapshot(now, trigger);
-  commands_.Observe(known.state, commanding);
-  const control::RoutePlace place = tracker_.Advance(known, commanding, commands_.applied());
+  const control::Input applied = commands_.Applied(known.state, commanding);
+  const control::RoutePlace place = tracker_.Advance(known, commanding, applied);
   const control::RouteProgress progress = planner_.ProgressAt(place);
-  safety::ModeInputs inputs = InputsOf(known, place, progress);
 
   // 2. The plan: a new one from a new state; without one, or if it is late or refused, the active plan continues.
-  const Outcome outcome =
-      planner_.Plan(RequestOf(known, inputs), known, place, commanding, commands_.applied());
-  if (outcome.accepted) commands_.Follow(outcome.solution->z, tracker_.motion());
-  inputs.plan_fault = outcome.fault;
-  inputs.plan_usable = planner_.active().Covers(outcome.step);
-  inputs.plan_left = planner_.active().Left(outcome.step);
+  safety::ModeInputs inputs = InputsOf(known, place, progress);
+  const PlanRequest request = RequestOf(before, inputs);
+  const Outcome outcome = planner_.Plan(request, known, place, commanding, applied);
+  if (outcome.accepted) commands_.PlanStop(outcome.solution->z, tracker_.motion());
+  AddPlan(outcome, inputs);
 
-  // 3. The mode. 4. The command, through limiter and gate: a command that one of them refuses is never sent.
+  // 3. The mode.
   mode_ = safety::Next(before, inputs, settings_.modes);
-  const safety::LimitResult limited = Issue(inputs, known, outcome);
+
+  // 4. The command, through limiter and gate. If one of them refuses it, the mode becomes Fault.
+  const safety::LimitResult limited = Issue(known, outcome, inputs);
   if (bus::Commands(mode_.mode)) {
     commands_.Apply(*limited.command);
   } else {
@@ -87,14 +94,7 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   }
 
   // 5. The reports. They follow the commands, so that these are sent first.
-  const CycleResult result{.known = known,
-                           .place = place,
-                           .progress = progress,
-                           .inputs = inputs,
-                           .outcome = outcome,
-                           .limited = limited,
-                           .mode = mode_,
-                           .before = before};
+  const CycleResult result{known, place, progress, inputs, outcome, limited, mode_, before};
   reports_.Write(result, planner_);
   reports_.AppendFrames(result, settings_.send_horizon, gate_, frames_);
   return frames_;
@@ -133,17 +133,16 @@ safety::ModeInputs ControlLoop::InputsOf(const Snapshot& known, const control::R
           .silent = known.silent};
 }
 
-PlanRequest ControlLoop::RequestOf(const Snapshot& known, const safety::ModeInputs& inputs) const {
-  if (safety::EngagementRequested(mode_, inputs)) return PlanRequest::kFirst;
-  if (!bus::Drives(mode_.mode)) return PlanRequest::kNone;
-  const bool possible = known.state_new && known.state_fresh && inputs.route_left > 0;
-  return possible ? PlanRequest::kNext : PlanRequest::kNoState;
+void ControlLoop::AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) const {
+  inputs.plan_fault = outcome.fault;
+  inputs.plan_usable = planner_.active().Covers(outcome.step);
+  inputs.plan_left = planner_.active().Left(outcome.step);
 }
 
 // Encodes the command of the mode. If limiter or encoder refuse it, the mode becomes Fault and the measured inputs are
 // encoded, disabled.
-safety::LimitResult ControlLoop::Issue(safety::ModeInputs& inputs, const Snapshot& known,
-                                       const Outcome& outcome) {
+safety::LimitResult ControlLoop::Issue(const Snapshot& known, const Outcome& outcome,
+                                       safety::ModeInputs& inputs) {
   safety::LimitResult limited =
       commands_.Command(mode_.mode, outcome.step, planner_.active(), tracker_.motion(), known.state);
   if (!limited.command || !Encode(limited, known, outcome)) {

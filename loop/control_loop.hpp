@@ -97,9 +97,9 @@ class ControlLoop {
  private:
   [[nodiscard]] safety::ModeInputs InputsOf(const Snapshot& known, const control::RoutePlace& place,
                                             const control::RouteProgress& progress) const;
-  [[nodiscard]] PlanRequest RequestOf(const Snapshot& known, const safety::ModeInputs& inputs) const;
-  [[nodiscard]] safety::LimitResult Issue(safety::ModeInputs& inputs, const Snapshot& known,
-                                          const Outcome& outcome);
+  void AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) const;
+  [[nodiscard]] safety::LimitResult Issue(const Snapshot& known, const Outcome& outcome,
+                                          safety::ModeInputs& inputs);
   [[nodiscard]] bool Encode(const safety::LimitResult& limited, const Snapshot& known,
                             const Outcome& outcome);
 

@@ -61,7 +61,7 @@ class Planner {
   Planner& operator=(const Planner&) = delete;
 
   // To be called when a cycle begins.
-  void Start() { start_ = stopwatch_(); }
+  void StartStopwatch() { start_ = stopwatch_(); }
   // Makes the plan of the cycle. `applied`: the last command, or while commands are disabled the measured inputs.
   [[nodiscard]] Outcome Plan(PlanRequest request, const Snapshot& known, const control::RoutePlace& place,
                              bool commanding, const control::Input& applied);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <type_traits>
 
 #include "bus/vehicle_bus.hpp"
@@ -22,11 +23,16 @@ struct Answer {
 };
 
 // Messages that the daemon sends besides its commands. The horizon's header and points share a message.
+using Reports = std::tuple<bus::ControllerStatus, bus::SchedulingHealth, bus::ControllerDiagnostics,
+                           bus::ConstraintReport, bus::HorizonHeader, bus::HorizonPoint>;
+
+template <typename Typed, typename List>
+inline constexpr bool kIsOneOf = false;
+template <typename Typed, typename... Types>
+inline constexpr bool kIsOneOf<Typed, std::tuple<Types...>> = (std::is_same_v<Typed, Types> || ...);
+
 template <typename Typed>
-concept Report =
-    std::is_same_v<Typed, bus::ControllerStatus> || std::is_same_v<Typed, bus::SchedulingHealth> ||
-    std::is_same_v<Typed, bus::ControllerDiagnostics> || std::is_same_v<Typed, bus::ConstraintReport> ||
-    std::is_same_v<Typed, bus::HorizonHeader> || std::is_same_v<Typed, bus::HorizonPoint>;
+concept Report = kIsOneOf<Typed, Reports>;
 
 class CommandGate {
  public:
@@ -49,15 +55,14 @@ class CommandGate {
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:
-  struct Sent {
-    std::uint32_t id = 0;
-    std::uint8_t counter = 0;
-  };
+  static constexpr std::size_t kSent = 2 + std::tuple_size_v<Reports>;
 
   [[nodiscard]] bool Encode(std::uint32_t id, const bus::Message& message, can::Frame& out);
 
   const bus::VehicleBus* bus_;
-  std::array<Sent, 7> sent_;  // one per message, the commands first
+  // The commands first, then the reports. Types that share a message share its first place.
+  std::array<std::uint32_t, kSent> ids_;
+  std::array<std::uint8_t, kSent> counters_{};
 };
 
 }  // namespace safety

@@ -74,7 +74,7 @@ TEST_F(VehicleDbc, EveryRangeIsHeldByTheBits) {
 TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   for (const dbc::MessageDefinition& message : database_.messages) {
     for (const char* name : {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Part", "Page", "Cause",
-                             "PreviousMode", "FaultyMessage", "FrameFault"}) {
+                             "PreviousMode", "FaultyMessage", "FrameFault", "Verdict", "Constraint"}) {
       const dbc::Signal* signal = message.Find(name);
       if (signal == nullptr) continue;
       EXPECT_EQ(signal->values.size(), static_cast<std::size_t>(signal->max) + 1) << name;
@@ -88,6 +88,8 @@ TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   EXPECT_EQ(cause->values.at(static_cast<int>(ModeCause::kReleased)), "RequestWithdrawn");
   EXPECT_EQ(cause->values.at(static_cast<int>(ModeCause::kSilent)), "Silent");
   EXPECT_EQ(cause->max, static_cast<double>(ModeCause::kPlanRejected));
+  const dbc::Signal* constraint = database_.Find("ConstraintReport")->Find("Constraint");
+  EXPECT_EQ(constraint->max, static_cast<double>(ConstraintName::kTrust));
 }
 
 }  // namespace
