@@ -1,7 +1,6 @@
 #include "config/toml_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -11,82 +10,10 @@
 
 #include "config/edit_distance.hpp"
 #include "config/text_file.hpp"
+#include "config/toml_document.hpp"
 
 namespace config {
 namespace {
-
-struct Document {
-  std::string name;
-  std::filesystem::path folder;
-  toml::table root;
-};
-
-// Only a number can lack a bound: an integer has at least the bounds of int.
-template <typename T>
-std::string FormatRange(const Range<T>& range, std::string_view unit) {
-  constexpr bool kHasInfinity = std::numeric_limits<T>::has_infinity;
-  const bool no_min = kHasInfinity && range.min == Range<T>{}.min;
-  const bool no_max = kHasInfinity && range.max == Range<T>{}.max;
-  return fmt::format("{}, {}{}{}", no_min ? "(-inf" : fmt::format("[{}", range.min),
-                     no_max ? "inf)" : fmt::format("{}]", range.max), unit.empty() ? "" : " ", unit);
-}
-
-std::string FormatValue(const toml::node& node) {
-  if (const auto* value = node.as_string()) return fmt::format(" = \"{}\"", Printable(value->get()));
-  if (const auto* value = node.as_integer()) return fmt::format(" = {}", value->get());
-  if (const auto* value = node.as_floating_point()) return fmt::format(" = {}", value->get());
-  if (const auto* value = node.as_boolean()) return fmt::format(" = {}", value->get());
-  return "";
-}
-
-std::string_view TypeName(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "table";
-    case toml::node_type::array:
-      return "array";
-    case toml::node_type::string:
-      return "string";
-    case toml::node_type::integer:
-      return "integer";
-    case toml::node_type::floating_point:
-      return "number";
-    case toml::node_type::boolean:
-      return "boolean";
-    default:
-      return "date or time";
-  }
-}
-
-ConfigError ErrorAt(const Document& document, unsigned line, std::string_view text) {
-  return ConfigError(fmt::format("{}:{}: {}", document.name, std::max(line, 1u), text));
-}
-
-ConfigError ValueError(const Document& document, std::string_view key, const toml::node& node,
-                       std::string_view text) {
-  return ErrorAt(document, node.source().begin.line,
-                 fmt::format("key '{}'{} {}", Printable(key), FormatValue(node), text));
-}
-
-ConfigError TypeError(const Document& document, std::string_view key, const toml::node& node,
-                      std::string_view wanted) {
-  return ValueError(document, key, node, fmt::format("({}) must be {}", TypeName(node), wanted));
-}
-
-double ToNumber(const Document& document, const std::string& key, const toml::node& node,
-                const Range<double>& range, std::string_view unit) {
-  if (!node.is_number()) throw TypeError(document, key, node, "a number");
-  const double value = *node.value<double>();
-  if (!std::isfinite(value)) throw ValueError(document, key, node, "is not a finite number");
-  if (value < range.min || value > range.max) {
-    throw ValueError(document, key, node, fmt::format("is outside {}", FormatRange(range, unit)));
-  }
-  return value;
-}
-
-std::string Join(const std::vector<std::string>& choices) {
-  return fmt::format("\"{}\"", fmt::join(choices, "\", \""));
-}
 
 void CollectValues(const toml::table& table, const std::string& prefix,
                    std::map<std::string, std::string>& values) {

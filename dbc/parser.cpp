@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dbc/codec.hpp"
+#include "dbc/multiplexing.hpp"
 #include "dbc/statement_readers.hpp"
 #include "dbc/token_reader.hpp"
 
@@ -30,16 +31,11 @@ class Parser {
   Database Run() {
     while (!in_.AtEnd()) Statement();
     for (std::size_t i = 0; i < database_.messages.size(); ++i)
-      ResolveMultiplexing(database_.messages[i], notes_[i]);
+      ResolveMultiplexing(in_, notes_[i], database_.messages[i]);
     return std::move(database_);
   }
 
  private:
-  // Data about a signal that are needed until the whole file is read.
-  struct SignalNote {
-    Token place;
-    std::string multiplexor;  // empty: the only one of the message
-  };
   // The object to which a comment or an attribute belongs.
   struct Target {
     std::string* comment;
@@ -285,38 +281,6 @@ class Parser {
     const Target target = TakeTarget();
     target.attributes->insert_or_assign(name.text, ReadAttributeValue(in_, DefinitionOf(name)));
     in_.Expect(";", "the value of the attribute");
-  }
-
-  // ---- once the whole file is read ----
-  void ResolveMultiplexing(MessageDefinition& message, const std::vector<SignalNote>& notes) const {
-    std::vector<Signal>& all = message.signals;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      std::optional<Multiplexing>& multiplexing = all[i].multiplexing;
-      if (multiplexing) multiplexing->multiplexor = FindMultiplexor(message, notes[i]);
-    }
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      std::size_t steps = 0;
-      for (const Signal* s = &all[i]; s->multiplexing; s = &all[s->multiplexing->multiplexor]) {
-        if (++steps <= all.size()) continue;
-        in_.Fail(notes[i].place, "the multiplexors of signal " + all[i].name + " are circular");
-      }
-    }
-  }
-
-  [[nodiscard]] std::size_t FindMultiplexor(const MessageDefinition& message, const SignalNote& note) const {
-    const std::string& wanted = note.multiplexor;
-    const auto fits = [&wanted](const Signal& s) {
-      return wanted.empty() ? s.is_multiplexor && !s.multiplexing : s.name == wanted;
-    };
-    const auto count = std::ranges::count_if(message.signals, fits);
-    if (count == 1) {
-      return static_cast<std::size_t>(std::ranges::find_if(message.signals, fits) - message.signals.begin());
-    }
-    const std::string subject = "signal " + note.place.text + " is multiplexed";
-    if (!wanted.empty())
-      in_.Fail(note.place, subject + " by " + wanted + ", which is not in message " + message.name);
-    in_.Fail(note.place, subject + ", but message " + message.name + " has " + std::to_string(count) +
-                             " multiplexors, expected 1");
   }
 
   TokenReader in_;

@@ -24,7 +24,7 @@ std::string ViolationText(const control::ConstraintViolation& violation) {
     const bool small = unit == "m" && amount < 0.1;
     const std::string lacking =
         small ? fmt::format("{:.1f} mm", 1e3 * amount) : fmt::format("{:.2f} {}", amount, unit);
-    return fmt::format("{} at i = {}, short by {}", what, constraint.step, lacking);
+    return fmt::format("{} at i = {}, short of {}", what, constraint.step, lacking);
   };
   switch (constraint.kind) {
     case ConstraintKind::kInput:

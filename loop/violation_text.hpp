@@ -7,7 +7,7 @@
 
 namespace loop {
 
-// "obstacle 1 at i = 8, short by 31.0 mm"
+// "obstacle 1 at i = 8, short of 31.0 mm"
 [[nodiscard]] std::string ViolationText(const control::ConstraintViolation& violation);
 
 }  // namespace loop

@@ -106,8 +106,9 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
     StartCold(qp);
   constexpr int kMaxHalvings = 6;
   constexpr double kShort = 0.9;
-  double alpha = 1.0;
-  double infeasibility = 1.0;  // remaining fraction of the initial residuals of the linear equations
+  double alpha = 1.0,
+         infeasibility =
+             1.0;  // the latter: remaining fraction of the initial residuals of the linear equations
   for (;; ++result.iterations) {
     const double linear = Residuals(qp);
     result.kkt_residual = std::max(linear, complementarity_error_);

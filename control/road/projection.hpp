@@ -18,6 +18,21 @@ template <typename Distance>
   return k;
 }
 
+// The first sample with the least `distance` of first..last, all of which are compared.
+template <typename Distance>
+[[nodiscard]] int NearestOfAll(const Distance& distance, int first, int last) {
+  int nearest = first;
+  double least = distance(first);
+  for (int k = first + 1; k <= last; ++k) {
+    const double other = distance(k);
+    if (other < least) {
+      least = other;
+      nearest = k;
+    }
+  }
+  return nearest;
+}
+
 // A position relative to a point of a path [m].
 struct PathOffset {
   double ahead = 0.0;

@@ -1,78 +1,20 @@
 #include "control/road/route.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <variant>
 
+#include "control/road/curve.hpp"
 #include "control/road/projection.hpp"
 
 namespace control {
 namespace {
 
+using detail::Cubic;
+using detail::LinearCurvature;
 using Eigen::Vector2d;
-
-// Eight-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun, table 25.4); exact to order 15.
-constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                       0.9602898564975363};
-constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                         0.1012285362903763};
-
-// Integral of f from 0 to `to`.
-template <typename F>
-auto Integrate(double to, const F& f) {
-  const double half = 0.5 * to;
-  using Value = std::decay_t<decltype(f(to))>;
-  const auto pair = [&](std::size_t i) -> Value {
-    return kWeights[i] * (f(half * (1.0 - kNodes[i])) + f(half * (1.0 + kNodes[i])));
-  };
-  return Value(half * (pair(0) + pair(1) + pair(2) + pair(3)));
-}
-
-// Curvature linear in arc length; its heading changes by less than kLargestTurn, so one quadrature is exact.
-constexpr double kLargestTurn = 0.5;
-struct LinearCurvature {
-  double curvature;
-  double slope;
-
-  RoutePoint At(const RoutePoint& start, double s) const {
-    const auto heading = [&](double l) { return start.psi + l * (curvature + 0.5 * slope * l); };
-    const Vector2d moved =
-        Integrate(s, [&](double l) { return Vector2d(std::cos(heading(l)), std::sin(heading(l))); });
-    return {start.X + moved.x(), start.Y + moved.y(), heading(s), curvature + slope * s, 0.0};
-  }
-};
-
-// Cubic x(t), y(t), t in [0, t_end].
-struct Cubic {
-  std::array<Vector2d, 4> c;
-  double t_end;
-  double length;
-
-  Vector2d Velocity(double t) const { return c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]); }
-  double ArcLength(double t) const {
-    return Integrate(t, [this](double tau) { return Velocity(tau).norm(); });
-  }
-  double ParameterAt(double s) const {
-    double t = t_end * s / length;
-    for (int i = 0; i < 20; ++i) {
-      const double step = (s - ArcLength(t)) / std::max(Velocity(t).norm(), 1e-6);
-      t = std::clamp(t + step, 0.0, t_end);
-      if (std::abs(step) < 1e-13 * t_end) break;
-    }
-    return t;
-  }
-  RoutePoint At(const RoutePoint& start, double s) const {
-    const double t = ParameterAt(s);
-    const Vector2d p = c[0] + t * (c[1] + t * (c[2] + t * c[3]));
-    const Vector2d v = Velocity(t);
-    const Vector2d a = 2.0 * c[2] + 6.0 * t * c[3];
-    const double curvature = (v.x() * a.y() - v.y() * a.x()) / std::pow(v.squaredNorm(), 1.5);
-    return {p.x(), p.y(), start.psi + WrapAngle(std::atan2(v.y(), v.x()) - start.psi), curvature, 0.0};
-  }
-};
 
 struct Segment {
   double s = 0.0;  // of its start
@@ -109,21 +51,6 @@ template <typename T>
 const T& LastNotAbove(const std::vector<T>& list, double T::*value, double x) {
   const auto next = std::ranges::upper_bound(list, x, {}, value);
   return next == list.begin() ? list.front() : *(next - 1);
-}
-
-// Second derivatives of the natural cubic spline at its knots (tridiagonal system, Thomas algorithm).
-std::vector<Vector2d> SplineCurvature(std::span<const Vector2d> p, std::span<const double> h) {
-  const std::size_t n = p.size();
-  std::vector<Vector2d> second(n, Vector2d::Zero());
-  std::vector<double> upper(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double pivot = 2.0 * (h[i - 1] + h[i]) - h[i - 1] * upper[i - 1];
-    upper[i] = h[i] / pivot;
-    const Vector2d rhs = 6.0 * ((p[i + 1] - p[i]) / h[i] - (p[i] - p[i - 1]) / h[i - 1]);
-    second[i] = (rhs - h[i - 1] * second[i - 1]) / pivot;
-  }
-  for (std::size_t i = n - 1; i-- > 1;) second[i] -= upper[i] * second[i + 1];
-  return second;
 }
 
 void Require(bool holds, const std::string& text) {
@@ -202,7 +129,7 @@ Route Route::FromPieces(const RouteStart& start, double speed, std::span<const R
     const double turn = piece.length * std::max(std::abs(piece.curvature_from), std::abs(piece.curvature_to));
     Require(turn < 1e4, name + "turns too often");
     const double slope = (piece.curvature_to - piece.curvature_from) / piece.length;
-    const int parts = std::max(1, static_cast<int>(std::ceil(turn / kLargestTurn)));
+    const int parts = std::max(1, static_cast<int>(std::ceil(turn / detail::kLargestTurn)));
     for (int part = 0; part < parts; ++part) {
       const double curvature = piece.curvature_from + slope * (piece.length * part / parts);
       geometry->Append(piece.length / parts, geometry->end, LinearCurvature{curvature, slope});
@@ -224,7 +151,7 @@ Route Route::ThroughWaypoints(std::span<const Vector2d> waypoints, double speed)
     Require(std::isfinite(h.back()), "waypoint " + std::to_string(i) + " is not finite");
     Require(h.back() > 0.0, "waypoint " + std::to_string(i) + " repeats its predecessor");
   }
-  const std::vector<Vector2d> second = SplineCurvature(waypoints, h);
+  const std::vector<Vector2d> second = detail::SplineCurvature(waypoints, h);
   auto geometry = std::make_shared<Geometry>();
   for (std::size_t i = 0; i < h.size(); ++i) {
     Cubic cubic{{waypoints[i],
@@ -272,14 +199,13 @@ RouteProjection Route::Project(const Vector2d& position, std::optional<double> h
   };
   const int from = hint ? index(*hint - kHintWindow) : 0;
   const int to = hint ? index(*hint + kHintWindow) : last;
-  const auto nearest = std::min_element(samples.begin() + from, samples.begin() + to + 1,
-                                        [&](const Vector2d& a, const Vector2d& b) {
-                                          return (a - position).squaredNorm() < (b - position).squaredNorm();
-                                        });
+  const auto distance = [&](int k) {
+    return (samples[static_cast<std::size_t>(k)] - position).squaredNorm();
+  };
+  const int i = NearestOfAll(distance, from, to);
 
   // The distance along the tangent falls through zero at the nearest point: Newton's method, kept in a
   // bracket.
-  const int i = static_cast<int>(nearest - samples.begin());
   constexpr double kFar = 1e6;
   double low = i == 0 ? -kFar : (i - 1) * spacing;
   double high = i == last ? length() + kFar : (i + 1) * spacing;

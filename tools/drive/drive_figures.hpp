@@ -44,7 +44,7 @@ struct DriveFigures {
                                         const config::RouteFile& route, const CostWeights& weights,
                                         const std::function<void(const can::Frame&)>& frame = nullptr);
 
-// "step 134, infeasible: obstacle 1 at i = 8, short by 31.0 mm"
+// "step 134, infeasible: obstacle 1 at i = 8, short of 31.0 mm"
 [[nodiscard]] std::string ToText(const FirstFailure& failure);
 
 }  // namespace tools
