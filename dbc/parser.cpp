@@ -13,8 +13,6 @@
 namespace dbc {
 namespace {
 
-using Kind = Token::Kind;
-
 constexpr std::uint32_t kExtendedFlag = 0x80000000u;
 constexpr std::uint32_t kIndependentSignals = 0xC0000000u;  // id of VECTOR__INDEPENDENT_SIG_MSG
 constexpr std::uint32_t kMaxStandardId = 0x7FF;
@@ -79,19 +77,8 @@ class Parser {
 
   void Version() { database_.version = in_.String("the version").text; }
 
-  // A list of words, most of them keywords: it ends where one is used as a keyword.
-  void NewSymbols() {
-    in_.Expect(":", "NS_");
-    while (in_.AtIdentifier() && !in_.At("BS_") && !in_.At("BU_") && !in_.At("BO_") &&
-           (in_.Peek(1).kind == Kind::kIdentifier || in_.Peek(1).kind == Kind::kEnd)) {
-      in_.Take();
-    }
-  }
-
-  void BitTiming() {
-    in_.Expect(":", "BS_");
-    while (in_.Peek().kind == Kind::kNumber || in_.At(":") || in_.At(",")) in_.Take();
-  }
+  void NewSymbols() { SkipNewSymbols(in_); }
+  void BitTiming() { SkipBitTiming(in_); }
 
   void Nodes() {
     in_.Expect(":", "BU_");

@@ -61,6 +61,19 @@ void ReadScaling(TokenReader& in, Signal& signal) {
 
 }  // namespace
 
+void SkipNewSymbols(TokenReader& in) {
+  in.Expect(":", "NS_");
+  while (in.AtIdentifier() && !in.At("BS_") && !in.At("BU_") && !in.At("BO_") &&
+         (in.Peek(1).kind == Token::Kind::kIdentifier || in.Peek(1).kind == Token::Kind::kEnd)) {
+    in.Take();
+  }
+}
+
+void SkipBitTiming(TokenReader& in) {
+  in.Expect(":", "BS_");
+  while (in.Peek().kind == Token::Kind::kNumber || in.At(":") || in.At(",")) in.Take();
+}
+
 SignalStatement ReadSignal(TokenReader& in) {
   SignalStatement statement;
   Signal& signal = statement.signal;

@@ -9,6 +9,11 @@
 
 namespace dbc {
 
+// Skips the words after NS_, most of which are keywords: the list ends where one is used as a keyword.
+void SkipNewSymbols(TokenReader& in);
+// Skips the numbers after BS_.
+void SkipBitTiming(TokenReader& in);
+
 struct SignalStatement {
   Signal signal;  // its multiplexor is not known yet
   Token place;

@@ -102,13 +102,12 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
   const double tolerance = optimum.tolerance();
   constexpr double kWild = 1e9;  // a warm start with a residual above this is not worth using
   BeginRows(qp, bounds);
-  if (warm_start == nullptr || !StartFrom(qp, optimum, *warm_start) || !(Residuals(qp) <= kWild))
-    StartCold(qp);
+  const bool warm = warm_start != nullptr && StartFrom(qp, optimum, *warm_start);
+  if (!warm || !(Residuals(qp) <= kWild)) StartCold(qp);
   constexpr int kMaxHalvings = 6;
   constexpr double kShort = 0.9;
-  double alpha = 1.0,
-         infeasibility =
-             1.0;  // the latter: remaining fraction of the initial residuals of the linear equations
+  double alpha = 1.0;
+  double infeasibility = 1.0;  // share left of the initial linear residuals
   for (;; ++result.iterations) {
     const double linear = Residuals(qp);
     result.kkt_residual = std::max(linear, complementarity_error_);
