@@ -104,7 +104,6 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
   BeginRows(qp, bounds);
   const bool warm = warm_start != nullptr && StartFrom(qp, optimum, *warm_start);
   if (!warm || !(Residuals(qp) <= kWild)) StartCold(qp);
-  constexpr int kMaxHalvings = 6;
   constexpr double kShort = 0.9;
   double alpha = 1.0;
   double infeasibility = 1.0;  // share left of the initial linear residuals
@@ -146,7 +145,7 @@ QpResult InteriorPointMethod<kNx, kNu>::Solve(const Qp& qp, const Optimum& optim
     if (infeasibility <= 1e-2 && ComplementarityAfter(alpha) > mu_) {
       Step(qp, 0.3 * mu_, false);
       alpha = StepLength(keep);
-      for (int k = 0; k < kMaxHalvings && ComplementarityAfter(alpha) > mu_; ++k) alpha *= 0.5;
+      for (int halvings = 6; halvings > 0 && ComplementarityAfter(alpha) > mu_; --halvings) alpha *= 0.5;
     }
     infeasibility *= 1.0 - alpha;
     Move(qp, alpha);

@@ -81,8 +81,9 @@ bool Unconstrained<kNx, kNu>::Solve(const Qp& qp, double tolerance) {
 
 // The recursion in its usual form, P = Q + AᵀP'A − H_xu H_uu⁻¹ H_ux, in which only the last term of P waits for K. It
 // costs half as much as FactoriseRiccati, but its difference loses digits if the dynamics grow much over the horizon.
+// Flattened, since GCC otherwise leaves some of the 8 × 8 products as calls, at 5 to 15 % of a solve.
 template <int kNx, int kNu>
-bool Unconstrained<kNx, kNu>::Factorise(const Qp& qp) {
+[[gnu::flatten]] bool Unconstrained<kNx, kNu>::Factorise(const Qp& qp) {
   using detail::Product;
   using MatrixXX = Eigen::Matrix<double, kNx, kNx>;
   using MatrixXU = Eigen::Matrix<double, kNx, kNu>;
@@ -135,7 +136,7 @@ bool Unconstrained<kNx, kNu>::FactoriseSafely(const Qp& qp) {
 
 // Computes x, u, π of the optimal inputs.
 template <int kNx, int kNu>
-void Unconstrained<kNx, kNu>::RollOut(const Qp& qp) {
+[[gnu::flatten]] void Unconstrained<kNx, kNu>::RollOut(const Qp& qp) {
   using detail::Product;
   const std::size_t N = stages_.size() - 1;
   stages_[0].x = qp.x0;
