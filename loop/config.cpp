@@ -114,6 +114,10 @@ int HorizonOf(const Config& config) {
   return IsPapers(config.controller) ? config.mpc.horizon : config.affine.horizon;
 }
 
+double ObstacleMarginOf(const Config& config) {
+  return IsPapers(config.controller) ? config.mpc.obstacle_margin : config.affine.obstacle_margin;
+}
+
 const char* ControllerName(ControllerKind kind) {
   return kControllerNames.at(static_cast<std::size_t>(kind));
 }

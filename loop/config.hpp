@@ -72,5 +72,7 @@ void SelectController(Config& config, const std::string& name);
 
 // N of the selected controller.
 [[nodiscard]] int HorizonOf(const Config& config);
+// Distance from obstacles that the controller chosen keeps where there is room [m].
+[[nodiscard]] double ObstacleMarginOf(const Config& config);
 
 }  // namespace loop

@@ -3,6 +3,7 @@
 #include <array>
 #include <gtest/gtest.h>
 
+#include "control/road/projection.hpp"
 #include "tools/scenarios/encounter.hpp"
 
 namespace {
@@ -92,12 +93,9 @@ TEST(PossibleWay, BendTakesItsShareOfTheFriction) {
   // υ² κ = 4 m/s² leaves 1.49 m/s² for the shift: 2 sqrt(2.1 / 1.49) = 2.37 s instead of 1.24 s.
   sim::Scenario scenario = Scenario(0.04);
   const control::RoutePoint at = scenario.route.At(50.0);
-  scenario.obstacles = {{.id = 1,
-                         .X = at.X + 0.5 * std::sin(at.psi),
-                         .Y = at.Y - 0.5 * std::cos(at.psi),
-                         .r_x = 1.0,
-                         .r_y = 1.5,
-                         .heading = at.psi}};
+  const Eigen::Vector2d centre = control::Beside(at, -0.5);
+  scenario.obstacles = {
+      {.id = 1, .X = centre.x(), .Y = centre.y(), .r_x = 1.0, .r_y = 1.5, .heading = at.psi}};
   scenario.appears_at[1] = 5.0 - 2.4;
   EXPECT_EQ(FindPossibleWay(scenario), PossibleWay::kPass);
   scenario.appears_at[1] = 5.0 - 2.3;

@@ -135,7 +135,7 @@ ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const
                          {"r_x", o.r_x},
                          {"r_y", o.r_y},
                          {"heading", o.heading},
-                         {"margin", config.mpc.obstacle_margin},
+                         {"margin", loop::ObstacleMarginOf(config)},
                          {"velocity_X", o.velocity_X},
                          {"velocity_Y", o.velocity_Y}});
   }

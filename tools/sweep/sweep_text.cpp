@@ -52,10 +52,10 @@ void AppendFailures(const SweepResult& result, std::string& text) {
 }  // namespace
 
 std::string ToText(const SweepResult& result) {
-  std::string text = fmt::format(
-      "{}\nthe obstacles can be passed in {} of them, only stopped before in {}, neither in {}\n",
-      result.setup.Describe(), CountWays(result, PossibleWay::kPass), CountWays(result, PossibleWay::kStop),
-      CountWays(result, PossibleWay::kNone));
+  std::string text =
+      fmt::format("{}\nthe obstacles can be passed in {} of them, only stopped before in {}, neither in {}\n",
+                  result.setup.Describe(), CountWays(result, PossibleWay::kPass),
+                  CountWays(result, PossibleWay::kStop), CountWays(result, PossibleWay::kNone));
   AppendTable(result, text);
   AppendFailures(result, text);
   return text;

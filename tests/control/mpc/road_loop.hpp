@@ -9,6 +9,7 @@
 
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "control/road/keep_out.hpp"
+#include "control/road/projection.hpp"
 #include "control/road/road_profile.hpp"
 #include "control/vehicle/discrete_model.hpp"
 #include "tests/control/roads.hpp"
@@ -29,18 +30,14 @@ class RoadLoop {
 
   void PlaceAt(double s, double speed, double lateral = 0.0) {
     const RoutePoint point = profile_.At(s);
-    z_ << point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi), speed, 0.0,
-        point.psi, 0.0;
+    const Eigen::Vector2d place = Beside(point, lateral);
+    z_ << place.x(), place.y(), speed, 0.0, point.psi, 0.0;
     s_ = s;
   }
   // A circle of this radius at `s`, `lateral` [m] left of the road.
   [[nodiscard]] Obstacle ObstacleAt(double s, double lateral, double radius) const {
-    const RoutePoint point = profile_.At(s);
-    return {.id = 1,
-            .X = point.X - lateral * std::sin(point.psi),
-            .Y = point.Y + lateral * std::cos(point.psi),
-            .r_x = radius,
-            .r_y = radius};
+    const Eigen::Vector2d centre = Beside(profile_.At(s), lateral);
+    return {.id = 1, .X = centre.x(), .Y = centre.y(), .r_x = radius, .r_y = radius};
   }
 
   State& z() { return z_; }
