@@ -144,7 +144,7 @@ struct ControllerStatus {
   FaultCode fault_code = FaultCode::kNone;
   SolverStatus solver_status = SolverStatus::kNone;
   std::uint8_t iterations = 0;
-  double solve_time = 0.0;            // of the whole control step [s]
+  double solve_time = 0.0;            // time of the whole control step [s]
   std::uint16_t deadline_misses = 0;  // since start, modulo 1024
 };
 struct SchedulingHealth {
@@ -168,7 +168,7 @@ struct HorizonPoint {
 struct ControllerDiagnostics {
   ModeCause cause = ModeCause::kStart;  // why the present mode was entered
   Mode previous_mode = Mode::kInit;     // mode before the present one
-  double countdown = 12.75;             // until the stop begins [s]; 12.75: 12.75 s or longer, or none
+  double countdown = 12.75;             // time until the stop begins [s]; 12.75: 12.75 s or longer, or none
   std::uint8_t faulty_message = 0;      // VAL_ FaultyMessage of vehicle.dbc, 0: none
   std::uint8_t frame_fault = 0;         // VAL_ FrameFault of vehicle.dbc, 0: none
   double cycle_latency = 0.0;       // last cycle started by a state: its arrival to both commands sent [s]
@@ -192,7 +192,7 @@ struct ConstraintReport {
   ConstraintVerdict verdict = ConstraintVerdict::kMet;
   ConstraintName constraint = ConstraintName::kModel;
   std::uint8_t index = 0;  // id of the obstacle, or index of the state or input
-  std::uint8_t step = 0;   // of the horizon
+  std::uint8_t step = 0;   // step of the horizon
   double amount = 0.0;     // in the unit of the constrained quantity
 };
 

@@ -9,5 +9,7 @@ namespace bus {
 
 [[nodiscard]] std::string_view Name(Mode mode);
 [[nodiscard]] std::string_view Name(FaultCode fault);
+[[nodiscard]] std::string_view Name(ConstraintVerdict verdict);
+[[nodiscard]] std::string_view Name(ConstraintName constraint);
 
 }  // namespace bus

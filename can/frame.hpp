@@ -30,7 +30,7 @@ struct Frame {
   FrameKind kind = FrameKind::kData;
   bool fd = false;
   std::uint8_t fd_flags = 0;  // CANFD_BRS, CANFD_ESI
-  std::uint8_t length = 0;    // of the payload [bytes]: 0..8; FD also 12, 16, 20, 24, 32, 48, 64
+  std::uint8_t length = 0;    // payload length [bytes]: 0..8; FD also 12, 16, 20, 24, 32, 48, 64
   std::array<std::byte, kMaxFdLength> data{};
   Time timestamp{};
 

@@ -95,7 +95,7 @@ class Socket {
   // file descriptor stays the same, and so does its place in an epoll instance. Harmless if nothing has changed.
   [[nodiscard]] bool Reopen();
 
-  // For epoll and poll: readable when Receive has a frame or an error to return.
+  // Descriptor for epoll and poll: readable when Receive has a frame or an error to return.
   [[nodiscard]] int fd() const { return fd_; }
   [[nodiscard]] const std::string& interface() const { return interface_; }
   // Frames that the kernel dropped because the receive buffer was full, as of the last frame received.

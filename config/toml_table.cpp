@@ -34,7 +34,7 @@ void CollectValues(const toml::table& table, const std::string& prefix,
 struct TomlTable::Node {
   std::shared_ptr<const Document> document;
   const toml::table* table = nullptr;  // null: not in the file
-  std::string prefix;                  // of the full keys: "" or with a dot at the end
+  std::string prefix;                  // prefix of the full keys: "" or ending in a dot
   unsigned line = 1;
   std::set<std::string, std::less<>> asked;
   std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> children;

@@ -11,7 +11,7 @@ namespace lpvmpcd {
 
 struct RealTimeOutcome {
   struct Refusal {
-    std::string what;  // with the requested value
+    std::string what;  // the setting and its requested value
     std::string why;
   };
   std::vector<std::string> granted;

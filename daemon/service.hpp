@@ -60,7 +60,7 @@ class Service {
   Transmitter transmitter_;
   BusState bus_ = BusState::kUp;
   base::Time last_empty_{};     // when the receive queue was last seen empty
-  base::Time state_arrival_{};  // of the newest complete state; CLOCK_MONOTONIC even in lock step
+  base::Time state_arrival_{};  // arrival of the newest complete state; CLOCK_MONOTONIC even in lock step
   base::Latencies latencies_;
   std::int64_t cycles_ = 0;
 };

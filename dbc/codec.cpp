@@ -12,9 +12,9 @@ namespace {
 // The part of a signal in one byte.
 struct Piece {
   std::size_t byte = 0;
-  unsigned shift = 0;      // of its lowest bit in the byte
+  unsigned shift = 0;      // index of its lowest bit in the byte
   unsigned width = 0;      // [bits]
-  unsigned raw_shift = 0;  // of its lowest bit in the raw value
+  unsigned raw_shift = 0;  // index of its lowest bit in the raw value
 
   [[nodiscard]] std::uint8_t Mask() const {
     return static_cast<std::uint8_t>((0xFFu >> (8 - width)) << shift);

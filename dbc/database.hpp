@@ -87,7 +87,7 @@ struct AttributeDefinition {
   AttributeType type = AttributeType::kString;
   double min = 0.0;
   double max = 0.0;
-  std::vector<std::string> choices;  // of an enumeration
+  std::vector<std::string> choices;  // values of an enumeration
   std::optional<AttributeValue> default_value;
 };
 

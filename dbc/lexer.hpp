@@ -18,7 +18,7 @@ struct Token {
   };
   Kind kind = Kind::kEnd;
   std::string text;
-  int line = 1;  // from 1
+  int line = 1;  // counted from 1
   int column = 1;
 };
 

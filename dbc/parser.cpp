@@ -204,7 +204,7 @@ class Parser {
   }
 
   void ValuesOfSignal() {
-    if (in_.AtIdentifier()) return in_.SkipStatement();  // of an environment variable
+    if (in_.AtIdentifier()) return in_.SkipStatement();  // values of an environment variable
     Signal* signal = SignalReference();
     ValueTable values;
     if (const auto table = database_.value_tables.find(in_.Peek().text);
@@ -272,7 +272,7 @@ class Parser {
 
   TokenReader in_;
   Database database_;
-  std::vector<std::vector<SignalNote>> notes_;  // of the signals of Database::messages
+  std::vector<std::vector<SignalNote>> notes_;  // notes on the signals of Database::messages
   bool in_message_ = false;                     // SG_ belongs to the last message
   bool in_independent_signals_ = false;         // SG_ belongs to no message
   std::string lost_comment_;                    // takes comments on what does not exist

@@ -16,12 +16,11 @@ namespace loop {
 std::unique_ptr<control::Controller> MakeController(const Config& config, const Road& road) {
   switch (config.controller) {
     case ControllerKind::kLpvAffine:
-      return std::make_unique<control::LpvAffineMpc>(config.vehicle, road.by_progress, config.affine);
+      return std::make_unique<control::LpvAffineMpc>(config.vehicle, road.profile, config.affine);
     case ControllerKind::kLpv:
     case ControllerKind::kLpvStandard:
       return std::make_unique<control::TimedController>(
-          std::make_unique<control::LpvMpc>(config.vehicle, config.mpc), road.by_time,
-          road.by_progress.road());
+          std::make_unique<control::LpvMpc>(config.vehicle, config.mpc), road.reference, road.profile.road());
     case ControllerKind::kNmpc:
     case ControllerKind::kNmpcAffine:
       break;
@@ -48,7 +47,7 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route,
       reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
       road_(route.road),
       profile_(route.route, route.road, config.speed),
-      controller_(make(config, {.by_time = reference_, .by_progress = profile_})),
+      controller_(make(config, {.reference = reference_, .profile = profile_})),
       check_({.vehicle = config.vehicle,
               .footprint = config.affine.footprint,
               .mu = config.affine.mu,

@@ -21,8 +21,8 @@ namespace loop {
 
 // The route as the controllers need it.
 struct Road {
-  const control::TimeReference& by_time;    // for the paper's controllers
-  const control::RoadProfile& by_progress;  // for the others
+  const control::TimeReference& reference;  // used by the paper's controllers
+  const control::RoadProfile& profile;      // used by the others
 };
 
 // Makes the controller that a configuration selects. The objects behind `road` outlive it.

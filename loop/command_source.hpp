@@ -22,12 +22,12 @@ class CommandSource {
       : limiter_(limits), stop_(stop), stop_deceleration_(stop_deceleration) {}
 
   // The input that acts on the vehicle: the last command or, while commands are disabled, the measured inputs.
-  [[nodiscard]] const control::Input& Applied(const VehicleState& state, bool commanding);
+  [[nodiscard]] control::Input Applied(const VehicleState& state, bool commanding) const;
 
   // The command for `step`, which the plan must cover if the mode drives. No command if the limiter refuses it.
   [[nodiscard]] safety::LimitResult Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,
-                                            const control::RouteMotion& motion,
-                                            const VehicleState& state) const;
+                                            const control::RouteMotion& motion, const VehicleState& state,
+                                            const control::Input& applied) const;
   // The measured inputs. They are sent while commands are disabled, so that enabling commands causes no jump.
   [[nodiscard]] safety::LimitResult Measured(const VehicleState& state) const;
 
@@ -36,7 +36,7 @@ class CommandSource {
     stop_offset_ = stop_.OffsetOf(plan, motion);
   }
 
-  // To be called with each command that is sent enabled.
+  // Must be called with each command that is sent enabled.
   void Apply(const safety::LimitedCommand& command) { applied_ = command.u(); }
 
   void Reconfigure(double stop_deceleration) { stop_deceleration_ = stop_deceleration; }
@@ -45,7 +45,7 @@ class CommandSource {
   safety::CommandLimiter limiter_;
   control::PathStop stop_;
   double stop_deceleration_;
-  double stop_offset_ = 0.0;  // of the stop's path, left of the route [m]
+  double stop_offset_ = 0.0;  // offset of the stop's path, left of the route [m]
   control::Input applied_ = control::Input::Zero();
 };
 

@@ -43,9 +43,9 @@ struct Config {
   ServiceSettings service;
   LoopSettings loop;
   ControllerKind controller = ControllerKind::kLpvAffine;
-  control::LpvMpcSettings mpc;        // of the paper's controllers
-  control::LpvAffineSettings affine;  // of lpv-affine and nmpc-affine
-  control::SpeedLimits speed;         // of lpv-affine and nmpc-affine
+  control::LpvMpcSettings mpc;        // settings of the paper's controllers
+  control::LpvAffineSettings affine;  // settings of lpv-affine and nmpc-affine
+  control::SpeedLimits speed;         // speed limits of lpv-affine and nmpc-affine
   control::VehicleParameters vehicle;
   std::string log_level = "info";
   std::map<std::string, std::string> written;  // the file's keys and values, except overridden ones
@@ -68,7 +68,7 @@ void SelectLockstep(Config& config);
 // Selects a controller by its name in the file. Throws std::invalid_argument if there is none of this name.
 void SelectController(Config& config, const std::string& name);
 [[nodiscard]] const char* ControllerName(ControllerKind kind);
-[[nodiscard]] std::vector<std::string> ControllerNames();  // of all kinds
+[[nodiscard]] std::vector<std::string> ControllerNames();  // names of all kinds
 
 // N of the selected controller.
 [[nodiscard]] int HorizonOf(const Config& config);

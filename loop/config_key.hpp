@@ -34,7 +34,7 @@ struct ConfigKey {
   std::string name;
   std::string default_value;  // as written in the file, or the rule that derives it from other keys
   std::string allowed;        // values and unit, as in the manual; may be empty
-  std::string sentence;       // for the manual, without the full stop
+  std::string sentence;       // description in the manual, without the full stop
   // Reads the key if it is in the table. Throws config::ConfigError if it is missing but required, or not allowed.
   std::function<void(const config::TomlTable& table, Config& config)> read;
   Reload reload = Reload::kNeedsRestart;

@@ -1,6 +1,7 @@
 #include "loop/control_loop.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace loop {
@@ -9,7 +10,8 @@ namespace {
 constexpr std::uint8_t kNoState = 15;
 constexpr int kNoPlanAge = 63;
 constexpr std::size_t kCommands = 2;
-constexpr std::size_t kReports = 5;  // status, health, diagnostics, constraint, horizon header
+constexpr std::size_t kReports =
+    std::tuple_size_v<safety::SentReports> - 1;  // reports of a cycle besides the horizon's points
 
 // A command cannot be older than the last input of its plan.
 LoopSettings WithinHorizon(LoopSettings settings, int horizon) {
@@ -86,7 +88,7 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   mode_ = safety::Next(before, inputs, settings_.modes);
 
   // 4. The command, through limiter and gate. If one of them refuses it, the mode becomes Fault.
-  const safety::LimitResult limited = Issue(known, outcome, inputs);
+  const safety::LimitResult limited = Issue(known, outcome, applied, inputs);
   if (bus::Commands(mode_.mode)) {
     commands_.Apply(*limited.command);
   } else {
@@ -142,9 +144,9 @@ void ControlLoop::AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) co
 // Encodes the command of the mode. If limiter or encoder refuse it, the mode becomes Fault and the measured inputs are
 // encoded, disabled.
 safety::LimitResult ControlLoop::Issue(const Snapshot& known, const Outcome& outcome,
-                                       safety::ModeInputs& inputs) {
+                                       const control::Input& applied, safety::ModeInputs& inputs) {
   safety::LimitResult limited =
-      commands_.Command(mode_.mode, outcome.step, planner_.active(), tracker_.motion(), known.state);
+      commands_.Command(mode_.mode, outcome.step, planner_.active(), tracker_.motion(), known.state, applied);
   if (!limited.command || !Encode(limited, known, outcome)) {
     inputs.internal_error = true;
     mode_ = safety::Next(mode_, inputs, settings_.modes);

@@ -45,13 +45,13 @@ struct LoopSettings {
   safety::MonitorSettings monitor;
   safety::CommandLimits limits;  // max_age is lowered to what the controller's horizon covers
   safety::ModeSettings modes;
-  control::VehicleParameters vehicle;     // for the steering of SafeStop
-  double stop_deceleration = 3.0;         // in SafeStop [m/s²], 0.1..10
+  control::VehicleParameters vehicle;     // model of odometer, delay compensation and SafeStop
+  double stop_deceleration = 3.0;         // deceleration in SafeStop [m/s²], 0.1..10
   double standstill_speed = 0.3;          // speed below which the vehicle stands [m/s], 0..5
   double engage_min_speed = 0.0;          // [m/s], 0..50
   double engage_max_heading_error = 0.5;  // relative to the route [rad], 0..π
   bool send_horizon = true;               // whether PlannedHorizon frames are sent
-  base::Time command_delay{};             // from a command to its effect
+  base::Time command_delay{};             // time from a command to its effect
 };
 
 class ControlLoop {
@@ -99,7 +99,7 @@ class ControlLoop {
                                             const control::RouteProgress& progress) const;
   void AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) const;
   [[nodiscard]] safety::LimitResult Issue(const Snapshot& known, const Outcome& outcome,
-                                          safety::ModeInputs& inputs);
+                                          const control::Input& applied, safety::ModeInputs& inputs);
   [[nodiscard]] bool Encode(const safety::LimitResult& limited, const Snapshot& known,
                             const Outcome& outcome);
 

@@ -16,10 +16,10 @@ namespace loop {
 struct CycleReport {
   bus::Mode mode = bus::Mode::kInit;
   bus::Mode previous_mode = bus::Mode::kInit;   // differs if the mode changed in this cycle
-  safety::Cause cause = safety::Cause::kStart;  // of the present mode
+  safety::Cause cause = safety::Cause::kStart;  // cause of the present mode
   bus::FaultCode fault = bus::FaultCode::kNone;
   bus::SolverStatus solver = bus::SolverStatus::kNone;
-  int iterations = 0;  // of the solver
+  int iterations = 0;  // solver iterations
   bool plan_accepted = false;
   // Constraint that the plan of this cycle could not meet, or the one that most obstructs an unsolved problem.
   std::optional<control::ConstraintViolation> relaxation = std::nullopt;
@@ -31,13 +31,13 @@ struct CycleReport {
   }
   bool engagement_refused = false;  // the driver's request of this cycle was not granted
   std::optional<safety::FaultyMessage> faulty_message = std::nullopt;
-  base::Time countdown = base::Time::max();  // until the stop begins if nothing changes; max: not driving
+  base::Time countdown = base::Time::max();  // time until the stop if nothing changes; max: not driving
   int plan_age = -1;                         // cycles; -1 without a plan or with commands disabled
   int route_index = -1;                      // point of the reference; -1 off the route
   bool limited = false;                      // the limiter changed the command
   control::Input command = control::Input::Zero();
-  base::Time step_time{};      // of the whole control step, by the stopwatch
-  base::Time cycle_latency{};  // of the last cycle started by a state: its arrival to both commands sent
+  base::Time step_time{};      // time of the whole control step, by the stopwatch
+  base::Time cycle_latency{};  // last cycle started by a state: its arrival to both commands sent
   std::uint64_t cycles = 0;
   std::uint64_t deadline_misses = 0;
   std::uint64_t plans_refused = 0;                      // not solved, late, or not acceptable

@@ -26,7 +26,7 @@ enum class Trigger : std::uint8_t { kState, kTimer };
 // The inputs known at the start of a cycle.
 struct Snapshot {
   base::Time now{};
-  base::Time waited{};    // since completion of the state set that started the cycle; 0 for the timer
+  base::Time waited{};    // time since the state set that started the cycle was complete; 0 for the timer
   std::int64_t step = 0;  // periods since the loop began, by state counter and timer (StepCounter)
 
   VehicleState state;
@@ -78,8 +78,8 @@ class Inbox {
   ObstacleAssembler obstacles_;
   StepCounter steps_;
   bus::DriverRequest request_;
-  bool released_ = false;       // since the last cycle
-  bool override_seen_ = false;  // since the last cycle
+  bool released_ = false;       // engage was seen false since the last cycle
+  bool override_seen_ = false;  // brake or steering override since the last cycle
   base::Time completed_{};      // when the last state set was complete
   bool bus_up_ = true;
   base::Time last_up_{};  // time of the last cycle that found the bus up

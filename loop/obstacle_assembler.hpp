@@ -27,7 +27,7 @@ class ObstacleAssembler {
   // number of objects was wrong or above kMaxObstacles; `obstacles()` are unchanged.
   [[nodiscard]] bool Update(const bus::ObstacleList& list, base::Time time);
 
-  // In the order in which they were first received.
+  // The obstacles in the order in which they were first received.
   [[nodiscard]] std::span<const control::Obstacle> obstacles() const { return committed_; }
   // Time since the last accepted list; Time::max() before the first.
   [[nodiscard]] base::Time Age(base::Time now) const { return known_ ? now - last_ : base::Time::max(); }

@@ -37,17 +37,23 @@ Planner::Planner(const PlannerSettings& settings, control::Controller& controlle
 Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control::RoutePlace& place,
                       bool commanding, const control::Input& applied) {
   if (commanding) {
-    delay_.Given(applied);
+    delay_.Record(applied);
   } else {
     delay_.Reset(applied);
   }
   Outcome outcome;
+  Prediction prediction{.z = control::State::Zero(), .obstacles = {}};
   if (request == PlanRequest::kFirst) {
     controller_->Reset();
   }
   const bool due = request == PlanRequest::kFirst || request == PlanRequest::kNext;
   if (due && known.waited <= settings_.deadline) {
-    outcome.solution = &Solve(known, place, applied);
+    prediction = Predict(known);
+    outcome.solution = &controller_->Step({.z = prediction.z,
+                                           .u_previous = applied,
+                                           .place = place,
+                                           .obstacles = prediction.obstacles,
+                                           .time_left = &time_left_});
     outcome.relaxation = Unmet(*outcome.solution);
   }
   outcome.solve_time = stopwatch_() - start_;
@@ -55,7 +61,7 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   outcome.late = age > settings_.deadline;
   outcome.step = known.step + (outcome.late ? age / settings_.period : 0);
   if (outcome.solution != nullptr) {
-    Accept(known, place, outcome);
+    Accept(known, place, prediction, outcome);
   }
   if (request != PlanRequest::kNone) {
     outcome.fault = FaultOf(outcome, known.state_new);
@@ -63,16 +69,13 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   return outcome;
 }
 
-const control::Plan& Planner::Solve(const Snapshot& known, const control::RoutePlace& place,
-                                    const control::Input& applied) {
-  const VehicleState& state = known.state;
-  z_ = delay_.Ahead(state.z, base::ToSeconds(known.now - state.timestamp));
+Planner::Prediction Planner::Predict(const Snapshot& known) {
   obstacles_.assign(known.obstacles.begin(), known.obstacles.end());
   for (control::Obstacle& obstacle : obstacles_) {
     obstacle = control::Predict(obstacle, base::ToSeconds(known.obstacle_age) + delay_.delay());
   }
-  return controller_->Step(
-      {.z = z_, .u_previous = applied, .place = place, .obstacles = obstacles_, .time_left = &time_left_});
+  const double age = base::ToSeconds(known.now - known.state.timestamp);
+  return {.z = delay_.Predict(known.state.z, age), .obstacles = obstacles_};
 }
 
 std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& plan) const {
@@ -81,13 +84,14 @@ std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& 
   return std::nullopt;
 }
 
-void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, Outcome& outcome) {
+void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, const Prediction& prediction,
+                     Outcome& outcome) {
   const control::Plan& plan = *outcome.solution;
   bus::FaultCode refusal =
       outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
   if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
     const CheckVerdict verdict =
-        CheckPlan(*check_, z_, place.s, plan.u, active_.From(known.step), obstacles_);
+        CheckPlan(*check_, prediction.z, place.s, plan.u, active_.From(known.step), prediction.obstacles);
     outcome.rejection = verdict.violation;
     if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/time.hpp"
@@ -25,7 +26,7 @@ namespace loop {
 struct PlannerSettings {
   base::Time period{};         // t_s
   base::Time deadline{};       // age of a state beyond which an answer to it is late
-  base::Time command_delay{};  // from a command to its effect
+  base::Time command_delay{};  // time from a command to its effect
   control::VehicleParameters vehicle;
 };
 
@@ -38,11 +39,11 @@ enum class PlanRequest : std::uint8_t {
 };
 
 struct Outcome {
-  const control::Plan* solution = nullptr;  // of this cycle, accepted or not; null if no problem was solved
+  const control::Plan* solution = nullptr;  // this cycle's, accepted or not; null if no problem was solved
   bool accepted = false;
   bool late = false;                   // the deadline has passed
   std::int64_t step = 0;               // step of the command: later than the snapshot's if the cycle was late
-  base::Time solve_time{};             // from Start to the end of planning
+  base::Time solve_time{};             // time from StartStopwatch to the end of planning
   std::optional<safety::Cause> fault;  // why there is no new plan, if there should be one
   // First violation that the check predicts for the solution. An accepted one fails no earlier than the last plan.
   std::optional<control::ConstraintViolation> rejection;
@@ -60,7 +61,7 @@ class Planner {
   Planner(const Planner&) = delete;  // time_left_ points to this object
   Planner& operator=(const Planner&) = delete;
 
-  // To be called when a cycle begins.
+  // Must be called when a cycle begins.
   void StartStopwatch() { start_ = stopwatch_(); }
   // Makes the plan of the cycle. `applied`: the last command, or while commands are disabled the measured inputs.
   [[nodiscard]] Outcome Plan(PlanRequest request, const Snapshot& known, const control::RoutePlace& place,
@@ -79,10 +80,15 @@ class Planner {
   [[nodiscard]] bus::FaultCode last_refusal() const { return last_refusal_; }
 
  private:
-  [[nodiscard]] const control::Plan& Solve(const Snapshot& known, const control::RoutePlace& place,
-                                           const control::Input& applied);
+  // Start of the plan: state and obstacles when the command of this cycle acts.
+  struct Prediction {
+    control::State z;
+    std::span<const control::Obstacle> obstacles;
+  };
+  [[nodiscard]] Prediction Predict(const Snapshot& known);
   [[nodiscard]] std::optional<control::ConstraintViolation> Unmet(const control::Plan& plan) const;
-  void Accept(const Snapshot& known, const control::RoutePlace& place, Outcome& outcome);
+  void Accept(const Snapshot& known, const control::RoutePlace& place, const Prediction& prediction,
+              Outcome& outcome);
 
   PlannerSettings settings_;
   control::Controller* controller_;
@@ -95,9 +101,8 @@ class Planner {
   std::uint64_t refused_ = 0;
   bus::FaultCode last_refusal_ = bus::FaultCode::kNone;
 
-  base::Time start_{};                         // of the cycle, by the stopwatch
-  control::State z_ = control::State::Zero();  // predicted to when the command of this cycle acts
-  std::vector<control::Obstacle> obstacles_;   // at the same time
+  base::Time start_{};                        // start of the cycle, by the stopwatch
+  std::vector<control::Obstacle> obstacles_;  // room for those of a Prediction
 };
 
 }  // namespace loop

@@ -26,7 +26,7 @@ struct CycleResult {
   const Outcome& outcome;
   const safety::LimitResult& limited;
   const safety::ModeState& mode;
-  const safety::ModeState& before;  // of the previous cycle
+  const safety::ModeState& before;  // mode of the previous cycle
 };
 
 class Reports {

@@ -15,7 +15,7 @@ namespace loop {
 struct RouteTrackerSettings {
   control::VehicleParameters vehicle;
   double t_s = 0.05;               // [s]
-  double max_heading_error = 0.5;  // between vehicle and route at engagement [rad], 0..π
+  double max_heading_error = 0.5;  // angle between vehicle and route at engagement [rad], 0..π
   double standstill_speed = 0.3;   // speed below which the vehicle stands [m/s]
 };
 
@@ -25,7 +25,7 @@ class RouteTracker {
   RouteTracker(const RouteTrackerSettings& settings, const control::TimeReference& reference,
                const control::RoadBounds& road);
 
-  // To be called once per cycle. `commanding`: commands are enabled; the vehicle then counts as on the route, beside
+  // Must be called once per cycle. `commanding`: commands are enabled; the vehicle then counts as on the route, beside
   // the sample of the previous cycle. `applied`: the last command.
   [[nodiscard]] control::RoutePlace Advance(const Snapshot& known, bool commanding,
                                             const control::Input& applied);

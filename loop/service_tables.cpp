@@ -26,7 +26,7 @@ ConfigTable BusTable() {
       "",
       {
           {.name = "interface",
-           .default_value = "\"can0\"",
+           .default_value = fmt::format("\"{}\"", ServiceSettings().interface),
            .allowed = "",
            .sentence = "CAN interface. The option *--interface*, which the unit gives, takes precedence",
            .read = [](const TomlTable& table,

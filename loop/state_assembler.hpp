@@ -14,7 +14,7 @@ struct VehicleState {
   control::State z = control::State::Zero();         // ψ wrapped to (-π, π]
   control::Input feedback = control::Input::Zero();  // δ and a as measured
   std::uint8_t counter = 0;
-  base::Time timestamp{};  // of the oldest of the three frames
+  base::Time timestamp{};  // time stamp of the oldest of the three frames
 };
 
 class StateAssembler {

@@ -20,8 +20,8 @@ class StepCounter {
 
  private:
   std::int64_t step_ = 0;
-  std::int64_t state_step_ = 0;  // of the last state set
-  int state_counter_ = -1;       // of the last state set, -1 before the first
+  std::int64_t state_step_ = 0;  // step of the last state set
+  int state_counter_ = -1;       // counter of the last state set, -1 before the first
 };
 
 }  // namespace loop

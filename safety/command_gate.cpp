@@ -18,7 +18,7 @@ std::array<std::uint32_t, 2 + sizeof...(Types)> IdsOf(const bus::VehicleBus& bus
 }  // namespace
 
 CommandGate::CommandGate(const bus::VehicleBus& bus)
-    : bus_(&bus), ids_(IdsOf(bus, std::type_identity<Reports>())) {}
+    : bus_(&bus), ids_(IdsOf(bus, std::type_identity<SentReports>())) {}
 
 bool CommandGate::Encode(const LimitedCommand& command, const Answer& answer, std::span<can::Frame, 2> out) {
   const bool enable = bus::Commands(answer.mode);

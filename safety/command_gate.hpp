@@ -18,13 +18,13 @@ namespace safety {
 // The mode, state and plan behind a command.
 struct Answer {
   bus::Mode mode = bus::Mode::kInit;
-  std::uint8_t state_counter = 15;  // of the answered state set; 15: none
+  std::uint8_t state_counter = 15;  // counter of the answered state set; 15: none
   std::uint8_t plan_age = 63;       // cycles; 63: 63 or more, or no plan
 };
 
 // Messages that the daemon sends besides its commands. The horizon's header and points share a message.
-using Reports = std::tuple<bus::ControllerStatus, bus::SchedulingHealth, bus::ControllerDiagnostics,
-                           bus::ConstraintReport, bus::HorizonHeader, bus::HorizonPoint>;
+using SentReports = std::tuple<bus::ControllerStatus, bus::SchedulingHealth, bus::ControllerDiagnostics,
+                               bus::ConstraintReport, bus::HorizonHeader, bus::HorizonPoint>;
 
 template <typename Typed, typename List>
 inline constexpr bool kIsOneOf = false;
@@ -32,7 +32,7 @@ template <typename Typed, typename... Types>
 inline constexpr bool kIsOneOf<Typed, std::tuple<Types...>> = (std::is_same_v<Typed, Types> || ...);
 
 template <typename Typed>
-concept Report = kIsOneOf<Typed, Reports>;
+concept Report = kIsOneOf<Typed, SentReports>;
 
 class CommandGate {
  public:
@@ -55,7 +55,7 @@ class CommandGate {
   [[nodiscard]] bool MaySend(const can::Frame& frame) const;
 
  private:
-  static constexpr std::size_t kSent = 2 + std::tuple_size_v<Reports>;
+  static constexpr std::size_t kSent = 2 + std::tuple_size_v<SentReports>;
 
   [[nodiscard]] bool Encode(std::uint32_t id, const bus::Message& message, can::Frame& out);
 

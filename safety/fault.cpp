@@ -4,13 +4,14 @@
 #include <cstddef>
 
 #include "bus/message_fields.hpp"
+#include "bus/names.hpp"
 
 namespace safety {
 namespace {
 
 using bus::FaultCode;
 
-// In the order of the enumerators.
+// Rows in the order of the enumerators.
 constexpr auto kCauses = std::to_array<CauseRow>({
     {Cause::kStart, "start", FaultCode::kNone, Severity::kEvent},
     {Cause::kInputsHealthy, "inputs healthy", FaultCode::kNone, Severity::kEvent},
@@ -19,19 +20,19 @@ constexpr auto kCauses = std::to_array<CauseRow>({
     {Cause::kOverride, "driver override", FaultCode::kNone, Severity::kEvent},
     {Cause::kStandstill, "standstill", FaultCode::kNone, Severity::kEvent},
     {Cause::kRecovered, "recovered", FaultCode::kNone, Severity::kEvent},
-    {Cause::kBusDown, "bus down", FaultCode::kBusDown, Severity::kHard},
-    {Cause::kStateStale, "vehicle state stale", FaultCode::kStateStale, Severity::kHard},
-    {Cause::kStateInvalid, "vehicle state refused", FaultCode::kStateInvalid, Severity::kHard},
-    {Cause::kObstaclesStale, "obstacles stale", FaultCode::kObstaclesStale, Severity::kSoft},
-    {Cause::kDriverRequestStale, "driver request stale", FaultCode::kDriverRequestStale, Severity::kSoft},
-    {Cause::kRouteEnd, "end of route", FaultCode::kRouteEnd, Severity::kHard},
-    {Cause::kPlanExhausted, "plan exhausted", FaultCode::kPlanExhausted, Severity::kHard},
+    {Cause::kBusDown, "", FaultCode::kBusDown, Severity::kHard},
+    {Cause::kStateStale, "", FaultCode::kStateStale, Severity::kHard},
+    {Cause::kStateInvalid, "", FaultCode::kStateInvalid, Severity::kHard},
+    {Cause::kObstaclesStale, "", FaultCode::kObstaclesStale, Severity::kSoft},
+    {Cause::kDriverRequestStale, "", FaultCode::kDriverRequestStale, Severity::kSoft},
+    {Cause::kRouteEnd, "", FaultCode::kRouteEnd, Severity::kHard},
+    {Cause::kPlanExhausted, "", FaultCode::kPlanExhausted, Severity::kHard},
     {Cause::kSilent, "no command sent for too long", FaultCode::kInternalError, Severity::kHard},
-    {Cause::kInternalError, "internal error", FaultCode::kInternalError, Severity::kHard},
-    {Cause::kStateLate, "no new vehicle state", FaultCode::kStateLate, Severity::kSoft},
+    {Cause::kInternalError, "", FaultCode::kInternalError, Severity::kHard},
+    {Cause::kStateLate, "", FaultCode::kStateLate, Severity::kSoft},
     {Cause::kSolverFailed, "problem not solved", FaultCode::kSolverNumericalFailure, Severity::kSoft},
-    {Cause::kDeadlineMissed, "deadline missed", FaultCode::kDeadlineMissed, Severity::kSoft},
-    {Cause::kPlanRejected, "plan rejected", FaultCode::kPlanRejected, Severity::kSoft},
+    {Cause::kDeadlineMissed, "", FaultCode::kDeadlineMissed, Severity::kSoft},
+    {Cause::kPlanRejected, "", FaultCode::kPlanRejected, Severity::kSoft},
 });
 static_assert(kCauses.size() == static_cast<std::size_t>(LastOf(Cause{})) + 1);
 
@@ -39,6 +40,19 @@ static_assert(kCauses.size() == static_cast<std::size_t>(LastOf(Cause{})) + 1);
 
 const CauseRow& RowOf(Cause cause) {
   return kCauses[static_cast<std::size_t>(cause)];
+}
+
+std::string_view Name(Cause cause) {
+  const CauseRow& row = RowOf(cause);
+  return row.text.empty() ? bus::Name(row.code) : row.text;
+}
+
+bus::FaultCode FaultOf(Cause cause) {
+  return RowOf(cause).code;
+}
+
+bool IsHard(Cause cause) {
+  return RowOf(cause).severity == Severity::kHard;
 }
 
 }  // namespace safety

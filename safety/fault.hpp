@@ -19,21 +19,15 @@ enum class Severity : std::uint8_t {
 
 struct CauseRow {
   Cause cause{};
-  std::string_view text;
+  std::string_view text;  // empty: that of the code
   bus::FaultCode code{};  // kNone for an event
   Severity severity{};
 };
 
 [[nodiscard]] const CauseRow& RowOf(Cause cause);
 
-[[nodiscard]] inline std::string_view Name(Cause cause) {
-  return RowOf(cause).text;
-}
-[[nodiscard]] inline bus::FaultCode FaultOf(Cause cause) {
-  return RowOf(cause).code;
-}
-[[nodiscard]] inline bool IsHard(Cause cause) {
-  return RowOf(cause).severity == Severity::kHard;
-}
+[[nodiscard]] std::string_view Name(Cause cause);
+[[nodiscard]] bus::FaultCode FaultOf(Cause cause);
+[[nodiscard]] bool IsHard(Cause cause);
 
 }  // namespace safety

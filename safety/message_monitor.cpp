@@ -16,7 +16,7 @@ constexpr auto kMessageNames = std::to_array<std::string_view>(
      bus::kFields<bus::ObstacleList>.message, bus::kFields<bus::DriverRequest>.message});
 static_assert(kMessageNames.size() == kRxMessages);
 
-// In the order of RxFault.
+// Names in the order of RxFault.
 constexpr auto kFaultNames = std::to_array<std::string_view>(
     {"unknown id", "wrong kind of frame", "wrong length", "wrong CRC", "invalid counter", "repeated counter",
      "counter jump", "invalid value", "value out of range"});

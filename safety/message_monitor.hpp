@@ -77,12 +77,12 @@ struct Health {
     kRefused,  // frames come, but none has passed for as long as a message stays fresh
   };
   State state = State::kNeverSeen;
-  std::optional<RxFault> reason;  // of the last refused frame; none if no frame was ever refused
+  std::optional<RxFault> reason;  // fault of the last refused frame; none if no frame was ever refused
 };
 
 struct MonitorSettings {
   double stale_periods = 3.0;  // a message older than this many of its periods is stale; 1..1000
-  int max_lost = 2;            // 0..13
+  int max_lost = 2;            // frames that may be missing, 0..13
 };
 
 class MessageMonitor {
@@ -115,7 +115,7 @@ class MessageMonitor {
     double period = 0.0;                     // [s]
     base::Time stale_after{};
     // Reception so far.
-    std::optional<std::uint8_t> counter;    // of the last frame with a valid CRC and counter
+    std::optional<std::uint8_t> counter;    // counter of the last frame with a valid CRC and counter
     int in_sequence_wanted = 0;             // frames in sequence until the message is accepted again
     std::optional<base::Time> accepted_at;  // time of the last frame that passed
     std::optional<RxFault> last_fault;

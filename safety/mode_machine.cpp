@@ -24,6 +24,10 @@ int CountHealthy(const ModeState& state, const ModeInputs& inputs) {
 
 }  // namespace
 
+bool ModeInputs::Healthy() const {
+  return bus_up && state_fresh && obstacles_fresh && request_fresh && !internal_error;
+}
+
 ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSettings& settings) {
   ModeState next = state;
   next.healthy_cycles = CountHealthy(state, inputs);

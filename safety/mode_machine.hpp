@@ -52,9 +52,7 @@ struct ModeInputs {
   bool silent = false;          // no command was sent for many cycles
   bool internal_error = false;
 
-  [[nodiscard]] bool Healthy() const {
-    return bus_up && state_fresh && obstacles_fresh && request_fresh && !internal_error;
-  }
+  [[nodiscard]] bool Healthy() const;
 };
 
 // The most severe fault of the inputs: the reason for a stop or for a refused engagement.

@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kRetry{2};  // between attempts to send into a full queue or a link that is down
+constexpr milliseconds kRetry{2};  // pause between attempts to send into a full queue or a link that is down
 constexpr milliseconds kPacedSendLimit{20};  // after it the cycle's other frames are lost, as on a bus
 constexpr std::chrono::duration<double> kPeriod{kCycleTime};
 

@@ -21,8 +21,8 @@ namespace sim {
 
 struct BusRunSettings {
   bool lockstep = false;
-  std::chrono::milliseconds controller_timeout{10'000};  // for the first ControllerStatus
-  std::chrono::milliseconds answer_timeout{5'000};       // for the answer to a state set in lock step
+  std::chrono::milliseconds controller_timeout{10'000};  // longest wait for the first ControllerStatus
+  std::chrono::milliseconds answer_timeout{5'000};       // longest wait for an answer in lock step
 };
 
 // The kernel filters for the messages that the vehicle receives.

@@ -37,7 +37,7 @@ double FootprintDistance(const control::Obstacle& obstacle, const control::Footp
   // The ellipse's centre is in the rectangle if it is on no edge's outer side.
   bool centre_inside = true;
   Vector2d deepest(std::numeric_limits<double>::infinity(),
-                   0.0);  // with the ellipse scaled to the unit circle
+                   0.0);  // point of an edge, with the ellipse scaled to the unit circle
   double distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vector2d& from = corners[i];

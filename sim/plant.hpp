@@ -30,8 +30,8 @@ struct PlantParameters {
   control::VehicleParameters vehicle;  // C_alpha_f, C_alpha_r: per tyre
   double track_front = 1.6;            // >= 0 [m]
   double track_rear = 1.6;             // >= 0 [m]
-  double height = 0.55;                // of the centre of gravity, >= 0 [m]
-  double roll_share_front = 0.55;      // of the front axle in the lateral load transfer, 0..1
+  double height = 0.55;                // height of the centre of gravity, >= 0 [m]
+  double roll_share_front = 0.55;      // share of the front axle in the lateral load transfer, 0..1
   Tyre tyre = Tyre::kLinear;
   double mu = 0.9;  // friction coefficient of saturating tyres, > 0
 };
@@ -63,7 +63,7 @@ class Plant {
   [[nodiscard]] std::array<double, kWheels> Loads(const control::State& z, const control::Input& u) const;
 
   PlantParameters parameters_;
-  std::array<Eigen::Vector2d, kWheels> hubs_;  // in the body frame
+  std::array<Eigen::Vector2d, kWheels> hubs_;  // positions in the body frame [m]
   control::State state_;
 };
 

@@ -20,8 +20,8 @@ constexpr Range<double> kMapX{kMapMinX, kMapMaxX};
 constexpr Range<double> kMapY{kMapMinY, kMapMaxY};
 constexpr Range<double> kLateral{-50.0, 50.0};   // [m]
 constexpr Range<double> kHeading{-6.3, 6.3};     // [rad]
-constexpr Range<double> kSemiAxis{0.05, 10.0};   // as ObstacleObject can hold [m]
-constexpr Range<double> kVelocity{-60.0, 60.0};  // as ObstacleObject can hold [m/s]
+constexpr Range<double> kSemiAxis{0.05, 10.0};   // within the range of ObstacleObject [m]
+constexpr Range<double> kVelocity{-60.0, 60.0};  // within the range of ObstacleObject [m/s]
 constexpr Range<double> kFactor{0.2, 5.0};
 constexpr Range<double> kTime{0.0, 1e5};       // [s]
 constexpr Range<double> kOverhang{0.0, 20.0};  // [m]
@@ -30,7 +30,7 @@ constexpr Range<int> kObjectId{0, 15};
 
 const std::array<std::string_view, 2> kByMap{"X", "Y"};
 
-// In the order of control::PassingSide.
+// Names in the order of control::PassingSide.
 std::vector<std::string> SideNames() {
   return {"unknown", "left", "right"};
 }

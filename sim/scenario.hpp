@@ -121,7 +121,7 @@ struct Scenario {
   control::Route route;
   control::RoadBounds road;
   std::vector<control::Obstacle> obstacles;  // at the start
-  std::map<int, double> appears_at;          // since the start [s], by obstacle id; none: perceived at once
+  std::map<int, double> appears_at;          // time since start [s] by obstacle id; none: perceived at once
 
   PlantParameters plant;
   control::Footprint footprint;

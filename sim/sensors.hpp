@@ -10,8 +10,8 @@ namespace sim {
 
 // Standard deviations, >= 0.
 struct SensorParameters {
-  double position = 0.0;  // of X and of Y [m]
-  double speed = 0.0;     // of υ and of ν [m/s]
+  double position = 0.0;  // X and Y [m]
+  double speed = 0.0;     // υ and ν [m/s]
   double heading = 0.0;   // ψ [rad]
   double yaw_rate = 0.0;  // ω [rad/s]
 };

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/percentile.hpp"
+#include "bus/names.hpp"
 #include "sim/footprint_distance.hpp"
 
 namespace sim {
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double kStandstillSpeed = 0.05;  // [m/s]
 constexpr int kStandstillCycles = 40;      // at rest for good, not just in passing
-constexpr int kMissesModulus = 1024;       // of ControllerStatus
+constexpr int kMissesModulus = 1024;       // modulus of ControllerStatus::deadline_misses
 
 void KeepSmaller(std::optional<double>& smallest, double value) {
   smallest = std::min(smallest.value_or(value), value);
@@ -49,28 +50,21 @@ std::string OrDash(const std::optional<double>& value) {
   return value ? fmt::format("{:.3f} m", *value) : "-";
 }
 
-const char* NameOf(bus::ConstraintVerdict verdict) {
-  constexpr std::array kNames{"met", "relaxed", "unsolved", "rejected"};
-  return kNames[static_cast<std::size_t>(verdict)];
-}
-
-const char* NameOf(bus::ConstraintName constraint) {
-  constexpr std::array kNames{"model", "input", "rate", "state", "road", "obstacle", "friction", "trust"};
-  return kNames[static_cast<std::size_t>(constraint)];
-}
-
 nlohmann::ordered_json UnmetJson(const std::optional<UnmetConstraint>& unmet) {
   if (!unmet) return nullptr;
   const bus::ConstraintReport& report = unmet->report;
-  return {
-      {"step", unmet->step},   {"verdict", NameOf(report.verdict)}, {"constraint", NameOf(report.constraint)},
-      {"index", report.index}, {"horizon_step", report.step},       {"amount", report.amount}};
+  return {{"step", unmet->step},
+          {"verdict", bus::Name(report.verdict)},
+          {"constraint", bus::Name(report.constraint)},
+          {"index", report.index},
+          {"horizon_step", report.step},
+          {"amount", report.amount}};
 }
 
 std::string UnmetText(const UnmetConstraint& unmet) {
   const bus::ConstraintReport& report = unmet.report;
-  return fmt::format("step {}: {} {} at i = {}, by {:.3f} ({})", unmet.step, NameOf(report.constraint),
-                     report.index, report.step, report.amount, NameOf(report.verdict));
+  return fmt::format("step {}: {} {} at i = {}, by {:.3f} ({})", unmet.step, bus::Name(report.constraint),
+                     report.index, report.step, report.amount, bus::Name(report.verdict));
 }
 
 }  // namespace

@@ -15,14 +15,14 @@ namespace sim {
 
 // A constraint that the controller reported as unmet. On a real bus the report may arrive one cycle later.
 struct UnmetConstraint {
-  std::int64_t step = 0;  // of the drive, counted from 0
+  std::int64_t step = 0;  // step of the drive, counted from 0
   bus::ConstraintReport report;
 };
 
 struct Summary {
   bool completed = false;    // the controller drove to the end of the route or of the scenario's duration
   std::int64_t steps = 0;    // cycles from engagement on
-  int infeasible_steps = 0;  // of these, in mode Active or Degraded with a status other than Solved
+  int infeasible_steps = 0;  // those in mode Active or Degraded with a status other than Solved
   int relaxed_steps = 0;     // cycles whose plan relaxed a soft constraint
   int rejected_plans = 0;    // cycles whose plan failed the check before it was followed
   std::optional<UnmetConstraint> first_unmet;
@@ -35,7 +35,7 @@ struct Summary {
   std::optional<std::int64_t> off_road_step;  // the first step with a negative road margin
   bool standing = false;                      // the vehicle was at standstill at the end
   std::optional<double> rms_lateral_error_m;  // distance to the reference path
-  int solve_time_median_us = 0;               // of the whole control step, as reported by the controller
+  int solve_time_median_us = 0;               // time of the whole control step, as reported by the controller
   int solve_time_p99_us = 0;
   int solve_time_max_us = 0;
   int deadline_misses = 0;
@@ -54,7 +54,7 @@ class Recorder {
   // True at the end of the duration or of the route, or if the state is not finite. Without a duration, also when the
   // vehicle stays at standstill and the controller does not drive, or 10 s after twice the route's time.
   [[nodiscard]] bool finished() const { return finished_; }
-  [[nodiscard]] double arc_length() const { return arc_length_; }  // of the vehicle on the route [m]
+  [[nodiscard]] double arc_length() const { return arc_length_; }  // the vehicle's place on the route [m]
 
   [[nodiscard]] Summary Result() const;
 

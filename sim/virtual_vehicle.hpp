@@ -29,7 +29,7 @@
 namespace sim {
 
 inline constexpr int kCommandLifetime = 10;          // [cycles]
-inline constexpr double kDriverDeceleration = -2.0;  // of a driver who has taken over [m/s²]
+inline constexpr double kDriverDeceleration = -2.0;  // demanded by a driver who has taken over [m/s²]
 inline constexpr double kIntegrationStep = 1e-3;     // [s]
 
 class VirtualVehicle {

@@ -9,7 +9,7 @@ LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& 
                            const LpvAffineSettings& settings)
     : settings_(settings),
       model_(BlendedModel(vehicle), settings.t_s),
-      task_(vehicle, profile, settings),
+      tracking_(vehicle, profile, settings),
       qp_(settings.horizon),
       rows_(qp_),
       solver_(settings.horizon, settings.qp),
@@ -25,7 +25,7 @@ void LpvAffineMpc::Reset() {
   prediction_.Clear();
   has_warm_start_ = false;
   trust_region_.Reset();
-  task_.Reset();
+  tracking_.Reset();
 }
 
 bool LpvAffineMpc::SetQpObserver(const QpObserver& observer) {
@@ -45,10 +45,10 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
     prediction_.Shift();
     return plan_;
   }
-  task_.Begin(input.z, input.place.s, input.obstacles);
+  tracking_.Begin(input.z, input.place.s, input.obstacles);
   CompareScheduling();
-  if (task_.waiting()) {
-    task_.Hold(input.u_previous, plan_.z, plan_.u);
+  if (tracking_.waiting()) {
+    tracking_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
     prediction_.Clear();
     has_warm_start_ = false;
@@ -60,7 +60,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
 
 void LpvAffineMpc::CompareScheduling() {
   if (!prediction_.exists()) return;
-  plan_.scheduling_error = trust_region_.SchedulingError(task_.z(), prediction_.z()[0]);
+  plan_.scheduling_error = trust_region_.SchedulingError(tracking_.z(), prediction_.z()[0]);
   if (settings_.adapt_trust_region) trust_region_.Adapt(plan_.scheduling_error);
 }
 
@@ -69,9 +69,9 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   const int least = prediction_.exists() ? 1 : settings_.first_iterations;
   const int most = std::max(least, settings_.iterations);
   if (prediction_.exists()) {
-    prediction_.RollOut(task_.z(), model_);
+    prediction_.RollOut(tracking_.z(), model_);
   } else {
-    prediction_.Follow(task_.z(), task_.reference(), task_.reference_input());
+    prediction_.Follow(tracking_.z(), tracking_.reference(), tracking_.reference_input());
   }
   for (int k = 0; k < most; ++k) {
     const TimeLeft* time_left = k < least ? nullptr : input.time_left;
@@ -100,11 +100,11 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
 
 bool LpvAffineMpc::BuildQp(const Input& u_previous) {
   const int N = settings_.horizon;
-  const auto z_ref = task_.reference();
-  const auto u_ref_before = [&](int i) { return task_.reference_input()[Index(std::max(i - 1, 0))]; };
-  const bool bounded = task_.BuildConstraints(prediction_.z());
+  const auto z_ref = tracking_.reference();
+  const auto u_ref_before = [&](int i) { return tracking_.reference_input()[Index(std::max(i - 1, 0))]; };
+  const bool bounded = tracking_.BuildConstraints(prediction_.z());
   rows_.Clear();
-  qp_.x0 << task_.z() - z_ref[0], u_previous - u_ref_before(0);
+  qp_.x0 << tracking_.z() - z_ref[0], u_previous - u_ref_before(0);
   for (int i = 0; i <= N; ++i) {
     auto& stage = qp_.stages[Index(i)];
     const double weight = i < N ? 2.0 : 2.0 * settings_.terminal;
@@ -133,10 +133,10 @@ bool LpvAffineMpc::BuildQp(const Input& u_previous) {
 // Reads plan_ from the solution. Returns the largest change of a scheduling variable, in radii.
 double LpvAffineMpc::ReadPlan() {
   const auto& stages = solver_.solution().stages;
-  plan_.z[0] = task_.z();
+  plan_.z[0] = tracking_.z();
   for (std::size_t i = 1; i < plan_.z.size(); ++i) {
-    plan_.z[i] = task_.reference()[i] + stages[i].x.head<kStates>();
-    plan_.u[i - 1] = task_.reference_input()[i - 1] + stages[i].x.tail<kInputs>();
+    plan_.z[i] = tracking_.reference()[i] + stages[i].x.head<kStates>();
+    plan_.u[i - 1] = tracking_.reference_input()[i - 1] + stages[i].x.tail<kInputs>();
   }
   const bool bounded = settings_.trust_region && prediction_.exists();
   MeasureRelaxation();

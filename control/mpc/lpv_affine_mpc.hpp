@@ -50,8 +50,8 @@ class LpvAffineMpc final : public Controller {
 
   // The QP of the last step and its reference, for recording and for tests.
   [[nodiscard]] const VehicleQp& qp() const { return qp_; }
-  [[nodiscard]] std::span<const State> reference() const { return task_.reference(); }
-  [[nodiscard]] std::span<const Input> reference_input() const { return task_.reference_input(); }
+  [[nodiscard]] std::span<const State> reference() const { return tracking_.reference(); }
+  [[nodiscard]] std::span<const Input> reference_input() const { return tracking_.reference_input(); }
 
  private:
   void CompareScheduling();
@@ -66,7 +66,7 @@ class LpvAffineMpc final : public Controller {
 
   LpvAffineSettings settings_;
   DiscreteModel model_;
-  TrackingProblem task_;
+  TrackingProblem tracking_;
   VehicleQp qp_;
   RowWriter rows_;
   VehicleQpSolver solver_;

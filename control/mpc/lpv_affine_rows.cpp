@@ -17,7 +17,7 @@ void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
     // An input that is out of range returns as fast as its rate allows.
     const double lo = std::min(settings_.u_min[j], u_previous[j] + i * step);
     const double hi = std::max(settings_.u_max[j], u_previous[j] - i * step);
-    const double u_ref = task_.reference_input()[Index(i - 1)][j];
+    const double u_ref = tracking_.reference_input()[Index(i - 1)][j];
     rows_.AddStateBound({.kind = ConstraintKind::kInput, .index = j, .step = i}, kPreviousInput + j,
                         lo - u_ref, hi - u_ref);
   }
@@ -25,7 +25,7 @@ void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
 
 // The lateral acceleration is linearised: υω ≈ υ̂ω + ω̂(υ − υ̂).
 void LpvAffineMpc::AddFrictionRows(int i) {
-  const State& z_ref = task_.reference()[Index(i)];
+  const State& z_ref = tracking_.reference()[Index(i)];
   const State& z_hat = prediction_.z()[Index(i)];
   const Softness softness{.rho = settings_.state_penalty, .sigma = settings_.state_penalty};
   rows_.AddStateBound({.kind = ConstraintKind::kState, .index = kUpsilon, .step = i}, kUpsilon,
@@ -34,7 +34,7 @@ void LpvAffineMpc::AddFrictionRows(int i) {
   C[kOmega] = z_hat[kUpsilon];
   C[kUpsilon] = z_hat[kOmega];
   const double across = z_hat[kUpsilon] * z_ref[kOmega] + z_hat[kOmega] * (z_ref[kUpsilon] - z_hat[kUpsilon]);
-  const double along = task_.reference_input()[Index(i - 1)][kAcceleration];
+  const double along = tracking_.reference_input()[Index(i - 1)][kAcceleration];
   for (const int sign : {0, 1, -1}) {
     const double limit = (sign == 0 ? 1.0 : std::numbers::sqrt2) * Grip(settings_);
     C[kPreviousInput + kAcceleration] = sign;
@@ -47,8 +47,8 @@ void LpvAffineMpc::AddFrictionRows(int i) {
 // The position of a point of the body is linearised in ψ.
 void LpvAffineMpc::AddBodyRows(int i) {
   const State& z_hat = prediction_.z()[Index(i)];
-  const State& z_ref = task_.reference()[Index(i)];
-  for (const BodyRow& row : task_.rows(Index(i))) {
+  const State& z_ref = tracking_.reference()[Index(i)];
+  for (const BodyRow& row : tracking_.rows(Index(i))) {
     const Eigen::Vector2d arm = Rotate(z_hat[kPsi], row.fixed);
     QpState C = QpState::Zero();
     C[kX] = row.normal.x();
@@ -70,10 +70,11 @@ void LpvAffineMpc::AddTrustRegion(int i) {
   };
   for (std::size_t j = 0; j < kScheduledStates.size(); ++j) {
     const int x = kScheduledStates[j];
-    add(x, prediction_.z()[Index(i)][x] - task_.reference()[Index(i)][x], j);
+    add(x, prediction_.z()[Index(i)][x] - tracking_.reference()[Index(i)][x], j);
   }
   add(kPreviousInput + kDelta,
-      prediction_.u()[Index(i - 1)][kDelta] - task_.reference_input()[Index(i - 1)][kDelta], kScheduledDelta);
+      prediction_.u()[Index(i - 1)][kDelta] - tracking_.reference_input()[Index(i - 1)][kDelta],
+      kScheduledDelta);
 }
 
 }  // namespace control

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/road/halfspace.hpp"
+#include "control/vehicle/geometry.hpp"
 
 namespace control {
 LpvMpc::LpvMpc(const VehicleParameters& vehicle, const LpvMpcSettings& settings)
@@ -113,8 +114,7 @@ void LpvMpc::AddStateRows(const TrackingInput& input, int i) {
                         settings_.z_min[j] - origin, settings_.z_max[j] - origin);
   }
   QpState normal = QpState::Zero();
-  normal[kX] = -std::sin(z_ref[kPsi]);
-  normal[kY] = std::cos(z_ref[kPsi]);
+  normal.segment<2>(kX) = LeftOf(z_ref[kPsi]);
   rows_.AddRow({.kind = ConstraintKind::kRoad, .index = 0, .step = i}, normal, Input::Zero(),
                input.road.right, input.road.left);
 }

@@ -22,9 +22,9 @@ struct MpcSettings {
   State z_max{1500.0, 800.0, 100.0, 10.0, std::numbers::pi, std::numbers::pi / (3.0 * 0.05)};
   Input u_min{-34.0 * std::numbers::pi / 180.0, -6.0};
   Input u_max{34.0 * std::numbers::pi / 180.0, 2.0};
-  Input rate_max{25.0 * std::numbers::pi / 180.0, 1.5};  // per step
+  Input rate_max{25.0 * std::numbers::pi / 180.0, 1.5};  // per step: δ [rad], a [m/s²]
 
-  double obstacle_margin = 0.1;  // by which obstacles are enlarged [m]
+  double obstacle_margin = 0.1;  // enlargement of the obstacles [m]
 };
 
 }  // namespace control

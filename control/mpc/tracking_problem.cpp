@@ -106,7 +106,7 @@ bool TrackingProblem::Add(std::size_t i, const BodyRow& row) {
   return true;
 }
 
-// For the middles of the front and the rear end; the corners are half a width beside them.
+// Adds rows for the middles of the front and the rear end; the corners are half a width beside them.
 bool TrackingProblem::AddRoad(std::size_t i, const State& z_hat, const RoutePoint& beside) {
   const Vector2d left = LeftOf(beside.psi), point(beside.X, beside.Y);
   const double inside = settings_.footprint.half_width + settings_.road_margin;

@@ -2,9 +2,9 @@
 // passing side of each obstacle or the place to stop, and the rows that keep the vehicle's rectangle on the road and
 // out of obstacles. The decisions are kept from step to step.
 //
-//   task.Begin(z, s, obstacles);    // once per step
-//   task.BuildConstraints(z_hat);   // once for each new predicted trajectory
-//   for (const BodyRow& row : task.rows(i)) …
+//   tracking.Begin(z, s, obstacles);    // once per step
+//   tracking.BuildConstraints(z_hat);   // once for each new predicted trajectory
+//   for (const BodyRow& row : tracking.rows(i)) …
 #pragma once
 
 #include <array>

@@ -12,8 +12,8 @@ double TrustRegion::SchedulingError(const State& z, const State& z_hat) const {
 }
 
 void TrustRegion::Adapt(double error) {
-  constexpr double kPoor = 0.5, kGood = 0.25;      // of the present radii
-  constexpr double kNarrower = 0.8, kWider = 1.1;  // per step
+  constexpr double kPoor = 0.5, kGood = 0.25;      // shares of the present radii
+  constexpr double kNarrower = 0.8, kWider = 1.1;  // factors per step
   constexpr double kNarrowest = 0.5, kWidest = 2.0;
   const double mismatch = error / scale_;
   const double factor = mismatch > kPoor ? kNarrower : (mismatch < kGood ? kWider : 1.0);

@@ -10,7 +10,7 @@ AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& prof
     : settings_(settings),
       trust_region_(problem.trust_radius),
       model_(BlendedModel(vehicle), problem.t_s),
-      task_(vehicle, profile, problem),
+      tracking_(vehicle, profile, problem),
       problem_(vehicle, problem),
       // No scaling: the penalties would scale the cost down and change the unit of the tolerance. With penalties this
       // large, a small μ at a cold start takes up to four times the iterations.
@@ -27,21 +27,21 @@ AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& prof
 void AffineNmpc::Reset() {
   prediction_.Clear();
   has_duals_ = false;
-  task_.Reset();
+  tracking_.Reset();
 }
 
 const Plan& AffineNmpc::Step(const ControllerInput& input) {
   plan_.iterations = 0;
   plan_.relaxation = {};
-  // A non-finite input would corrupt the stored place and passing decisions for good.
+  // A non-finite input would corrupt the passing decisions for good.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
     prediction_.Shift();
     return plan_;
   }
-  task_.Begin(input.z, input.place.s, input.obstacles);
-  if (task_.waiting()) {
-    task_.Hold(input.u_previous, plan_.z, plan_.u);
+  tracking_.Begin(input.z, input.place.s, input.obstacles);
+  if (tracking_.waiting()) {
+    tracking_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
     prediction_.Clear();
     has_duals_ = false;
@@ -54,16 +54,16 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
 // Solves in rounds; a round that fails leaves the previous plan in place.
 void AffineNmpc::Solve(const Input& u_previous) {
   if (prediction_.exists()) {
-    prediction_.RollOut(task_.z(), model_);
+    prediction_.RollOut(tracking_.z(), model_);
   } else {
-    prediction_.Follow(task_.z(), task_.reference(), task_.reference_input());
+    prediction_.Follow(tracking_.z(), tracking_.reference(), tracking_.reference_input());
   }
   for (int round = 0; round < settings_.rounds; ++round) {
     SolverStatus status = SolverStatus::kNumericalFailure;
     // An obstacle for which the problem has no room must not be ignored.
-    if (task_.BuildConstraints(prediction_.z())) {
+    if (tracking_.BuildConstraints(prediction_.z())) {
       const AffineNmpcProblem last = problem_;
-      problem_.Set(task_, u_previous);
+      problem_.Set(tracking_, u_previous);
       point_ = Start(last, round == 0 ? 1 : 0);
       const IpoptSolver::Result result = solver_.Solve(problem_, point_, has_duals_);
       plan_.iterations += result.iterations;
@@ -119,7 +119,7 @@ NonlinearPoint AffineNmpc::Start(const AffineNmpcProblem& last, int shift) const
 
 // Returns the largest change of a scheduling variable against the prediction, in radii.
 double AffineNmpc::ReadPlan() {
-  plan_.z[0] = task_.z();
+  plan_.z[0] = tracking_.z();
   for (std::size_t i = 1; i < plan_.z.size(); ++i) {
     plan_.z[i] = problem_.StateOf(point_.x, static_cast<int>(i));
     plan_.u[i - 1] = problem_.InputOf(point_.x, static_cast<int>(i) - 1);

@@ -5,8 +5,8 @@
 //
 // As in lpv-affine, the half-spaces of road and obstacles are taken about a predicted trajectory: the shifted last
 // solution from the measured state on, or the reference in a first step. If the solution is far from the prediction,
-// it becomes the next prediction and another round follows. The solution is local, on the sides that tracking_problem.hpp
-// decides on.
+// it becomes the next prediction and another round follows. The solution is local, on the sides that
+// tracking_problem.hpp decides on.
 //
 // Status: that of ipopt_solver.hpp, and kNumericalFailure if a value is not finite or there is no room for an
 // obstacle.
@@ -28,7 +28,7 @@
 namespace control {
 
 struct AffineNmpcSettings {
-  double tolerance = 1e-4;  // of Ipopt
+  double tolerance = 1e-4;  // Ipopt's tolerance
   int max_iterations = 200;
   int rounds = 2;  // solves in one step
   double converged =
@@ -58,10 +58,10 @@ class AffineNmpc final : public Controller {
   AffineNmpcSettings settings_;
   TrustRegion trust_region_;
   DiscreteModel model_;
-  TrackingProblem task_;
+  TrackingProblem tracking_;
   AffineNmpcProblem problem_;
   IpoptSolver solver_;
-  NonlinearPoint point_;    // from the last solve of problem_
+  NonlinearPoint point_;    // result of the last solve of problem_
   bool has_duals_ = false;  // point_ is a solution
   Plan plan_;
   Prediction prediction_;

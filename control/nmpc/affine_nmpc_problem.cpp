@@ -18,14 +18,14 @@ using Eigen::Vector2d;
 AffineNmpcProblem::AffineNmpcProblem(const VehicleParameters& vehicle, const LpvAffineSettings& settings)
     : settings_(settings), model_(BlendedModel(vehicle), settings.t_s), steps_(Index(settings.horizon)) {}
 
-void AffineNmpcProblem::Set(const TrackingProblem& task, const Input& u_previous) {
-  z_0_ = task.z();
+void AffineNmpcProblem::Set(const TrackingProblem& tracking, const Input& u_previous) {
+  z_0_ = tracking.z();
   u_previous_ = u_previous;
-  z_ref_.assign(task.reference().begin(), task.reference().end());
-  u_ref_.assign(task.reference_input().begin(), task.reference_input().end());
+  z_ref_.assign(tracking.reference().begin(), tracking.reference().end());
+  u_ref_.assign(tracking.reference_input().begin(), tracking.reference_input().end());
   variables_ = rows_ = 0;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
-    const auto body = task.rows(i + 1);
+    const auto body = tracking.rows(i + 1);
     steps_[i].first_variable = variables_;
     steps_[i].first_row = rows_;
     steps_[i].body.assign(body.begin(), body.end());

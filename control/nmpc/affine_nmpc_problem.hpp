@@ -37,8 +37,8 @@ class AffineNmpcProblem final : public NonlinearProgram {
  public:
   AffineNmpcProblem(const VehicleParameters& vehicle, const LpvAffineSettings& settings);
 
-  // Sets the problem of this step with the task's rows, after its BuildConstraints.
-  void Set(const TrackingProblem& task, const Input& u_previous);
+  // Sets the problem of this step with the tracking problem's rows, after its BuildConstraints.
+  void Set(const TrackingProblem& tracking, const Input& u_previous);
 
   [[nodiscard]] int horizon() const { return settings_.horizon; }
   // Indices in x of u_i (i = 0..N-1), of z_i (i = 1..N) and of ε_lo of soft row `soft` at z_i; ε_hi follows ε_lo.
@@ -85,7 +85,7 @@ class AffineNmpcProblem final : public NonlinearProgram {
   struct Step {
     int first_variable = 0;
     int first_row = 0;
-    std::vector<BodyRow> body;  // at z_{i+1}
+    std::vector<BodyRow> body;  // rows of the body at z_{i+1}
   };
   // Value of a soft row, and its derivatives with respect to z_i and a_{i−1}.
   struct Row {

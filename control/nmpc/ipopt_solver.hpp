@@ -16,7 +16,7 @@ namespace control {
 struct IpoptSettings {
   double tolerance = 1e-4;
   int max_iterations = 100;
-  double max_cpu_time = 1e6;  // of one solve [s]
+  double max_cpu_time = 1e6;  // limit for one solve [s]
   bool scaled = true;  // the program is scaled by its gradients at the start, and the tolerance with it
   double warm_barrier = 1e-4;  // barrier parameter μ at a warm start
   double cold_barrier = 1e-1;  // barrier parameter μ at a cold start

@@ -21,9 +21,9 @@
 namespace control {
 
 struct NmpcSettings : MpcSettings {
-  double tolerance = 1e-4;  // of Ipopt (paper, Section Results); leaves an error of up to 5e-3 in the input
+  double tolerance = 1e-4;  // Ipopt's (paper, Section Results); leaves an error of up to 5e-3 in the input
   int max_iterations = 100;
-  double max_cpu_time = 0.25;  // of one step [s]
+  double max_cpu_time = 0.25;  // limit for one step [s]
 };
 
 class Nmpc final : public TrackingController {

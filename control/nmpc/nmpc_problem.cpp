@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "control/vehicle/geometry.hpp"
+
 namespace control {
 namespace {
 
@@ -49,8 +51,7 @@ Input NmpcProblem::InputOf(std::span<const double> x, int i) const {
 
 // The road's left normal at step i.
 Eigen::Vector2d NmpcProblem::Normal(int i) const {
-  const double psi = reference_[Index(i)][kPsi];
-  return {-std::sin(psi), std::cos(psi)};
+  return LeftOf(reference_[Index(i)][kPsi]);
 }
 
 void NmpcProblem::Set(const TrackingInput& input) {

@@ -27,7 +27,7 @@ struct BarrierSide {
   static constexpr double kDualRegularisation = 1e-10;  // δ
 
   bool present = false;
-  double bound = 0.0;  // for deviations from the unconstrained optimum
+  double bound = 0.0;  // bound on the deviation from the unconstrained optimum
   double t = 1.0;
   double lambda = 0.0;
   double inverse_t = 0.0;  // 1 / (t + δ λ)
@@ -97,7 +97,7 @@ struct BarrierRow {
   // with λ_ε ε = μ, so λ_lo + λ_hi must stay below σ + ρ ε.
   template <typename Row>
   void Start(const Row& row, double value, double share, double mu, const RowMultiplier& at_least) {
-    constexpr double kLeastShare = 0.1;  // of σ, for λ_ε
+    constexpr double kLeastShare = 0.1;  // share of σ reserved for λ_ε, at most
     const double least = share * std::clamp(row.hi - row.lo, 0.0, 1.0) + 1e-3;
     const auto side = [&](BarrierSide& s, double distance, double lambda) {
       s.t = std::max(distance, least);

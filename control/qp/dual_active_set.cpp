@@ -173,7 +173,7 @@ void DualActiveSet::SolveTransposed() {
 DualActiveSet::Result DualActiveSet::Free(int j) {
   Row& row = rows_[At(j)];
   if (lambda_[j] == 0.0) row.side = g_[j] > row.hi ? 1.0 : -1.0;
-  const double sign = g_[j] > row.Bound() ? 1.0 : -1.0;  // of λ's change
+  const double sign = g_[j] > row.Bound() ? 1.0 : -1.0;  // sign of λ's change
   if (lambda_[j] == 0.0) {
     row.piece = row.sigma > 0.0 ? Piece::kHeld : Piece::kRelaxed;
   } else {

@@ -96,8 +96,8 @@ class DualActiveSet {
   std::vector<int> free_;  // the free rows, in the order of L's rows
   Vector g_0_, g_, lambda_;
   Matrix M_, L_;
-  Vector inverse_diagonal_;  // of L
-  Vector y_;                 // over the free rows
+  Vector inverse_diagonal_;  // 1 / diagonal entries of L
+  Vector y_;                 // workspace of the triangular solves over the free rows
 };
 
 }  // namespace control

@@ -1,4 +1,4 @@
-// The optimal-control quadratic program that the LPVMPC controllers solve:
+// The optimal-control quadratic program:
 //
 //   min   Σ_{i=0..N} ½ xᵢᵀ diag(Q_i) xᵢ + q_iᵀ xᵢ  +  Σ_{i=0..N-1} ½ uᵢᵀ diag(R_i) uᵢ + r_iᵀ uᵢ
 //         +  Σ_soft ½ ρ ε² + σ ε

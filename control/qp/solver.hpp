@@ -10,9 +10,8 @@
 // quadratic programs (1983), for 2; S. Mehrotra, On the implementation of a primal-dual interior point method (1992).
 //
 // Example:
-//   OcpQpSolver<8, 2> solver(horizon);
-//   const QpResult result = solver.Solve(qp);            // cold, or solver.Solve(qp, &warm_start)
-//   if (result.status == SolverStatus::kSolved) use(solver.solution().stages[0].u);
+//   OcpQpSolver<8, 2> solver(horizon);  // then solver.Solve(qp), or solver.Solve(qp, &warm_start)
+//   if (solver.Solve(qp).status == SolverStatus::kSolved) use(solver.solution().stages[0].u);
 #pragma once
 
 #include "control/qp/active_set_method.hpp"
@@ -23,7 +22,6 @@
 #include "control/qp/result.hpp"
 #include "control/qp/settings.hpp"
 #include "control/qp/shifted_bounds.hpp"
-#include "control/qp/status.hpp"
 #include "control/qp/unconstrained.hpp"
 
 namespace control {
@@ -36,17 +34,16 @@ class OcpQpSolver {
 
   explicit OcpQpSolver(int horizon, const QpSettings& settings = {});  // horizon ≥ 1
 
-  // `qp` and the warm start must have the solver's horizon. The warm start, which must not be solution() itself, shows
+  // `qp` and the warm start, which must not be solution() itself, must have the solver's horizon. The warm start shows
   // which rows to consider first and where the interior point starts. Does not allocate.
   //   kSolved            solution() satisfies the conditions of optimality to the tolerance (in deviations from the
   //                      unconstrained optimum, whose own round-off is added)
   //   kInfeasible        solution()'s multipliers prove that no point is feasible (ProvesInfeasible)
-  //   kIterationLimit    neither was reached within max_iterations or before time ran out. solution() is the last
-  //                      iterate or the trajectory of the warm start's inputs: the cheaper one of those that are
-  //                      feasible, else the last iterate. Slightly contradictory rows whose inputs have no hard bounds
-  //                      end like this, too
-  //   kNumericalFailure  the data are not finite or so large that they overflow, σ < 0, or a factorisation broke down
-  //                      or was too inaccurate; solution() is meaningless
+  //   kIterationLimit    neither within max_iterations and the time. solution() is the last iterate or the trajectory
+  //                      of the warm start's inputs: the cheaper one that is feasible, else the last iterate. Slightly
+  //                      contradictory rows whose inputs have no hard bounds end like this, too
+  //   kNumericalFailure  the data are not finite or overflow, σ < 0, or a factorisation failed or was too inaccurate;
+  //                      solution() is meaningless
   QpResult Solve(const Qp& qp, const Point* warm_start = nullptr, const TimeLeft* time_left = nullptr);
 
   [[nodiscard]] const Point& solution() const { return point_; }

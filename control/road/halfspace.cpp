@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "control/vehicle/geometry.hpp"
+
 namespace control {
 
 std::optional<HalfSpace> ObstacleHalfSpace(const Obstacle& obstacle, const State& z_ref, double margin) {
@@ -14,7 +16,7 @@ std::optional<HalfSpace> ObstacleHalfSpace(const Obstacle& obstacle, const State
   const Vector2d s = point.cwiseQuotient(axes);
   if (s.squaredNorm() >= 1.0) return std::nullopt;
 
-  const Vector2d left_normal(-std::sin(z_ref[kPsi]), std::cos(z_ref[kPsi]));
+  const Vector2d left_normal = LeftOf(z_ref[kPsi]);
   const Vector2d d = (to_axes * left_normal).cwiseQuotient(axes);
   // |s + λ d| = 1: λ > 0 is the way out to the left, λ < 0 to the right.
   const double dd = d.squaredNorm(), sd = s.dot(d);

@@ -12,9 +12,9 @@ namespace control {
 inline constexpr double kMinSteeringSpeed = 0.5;
 
 struct RouteMotion {
-  Eigen::Vector2d p = Eigen::Vector2d::Zero();  // in the map [m]
-  double psi = 0.0;                             // [rad]
-  double travel_direction = 0.0;                // of the velocity: ψ plus the sideslip angle [rad]
+  Eigen::Vector2d p = Eigen::Vector2d::Zero();  // position in the map [m]
+  double psi = 0.0;                             // heading [rad]
+  double travel_direction = 0.0;                // direction of the velocity: ψ plus the sideslip angle [rad]
   double speed = 0.0;                           // ≥ 0 [m/s]
   int nearest = 0;                              // sample of the reference beside the vehicle
 };

@@ -11,16 +11,23 @@ namespace control {
 namespace {
 
 // Costs of a gap, in metres of lateral movement.
-constexpr double kBeyondGrip = 20.0;  // per multiple of the grip beyond it
+constexpr double kBeyondGrip = 20.0;  // per multiple of the grip by which the acceleration exceeds it
 constexpr double kLacking = 50.0;     // per metre by which the gap is too narrow
 constexpr double kChange = 2.0;       // per obstacle whose passing side changes
 constexpr double kTooMuch = 15.0;     // above this cost, the vehicle stops instead
+
+constexpr double kNoGap = std::numeric_limits<double>::infinity();
 
 constexpr double kStoppedWithin = 0.1;  // [m]
 // Hysteresis of the gap width [m]: a gap that was wide enough when it was chosen may be too narrow by up to kKept; a
 // gap for which the vehicle is already stopping must be wider than necessary by at least kReopened.
 constexpr double kKept = 0.15;
 constexpr double kReopened = 0.1;
+
+// The side on which obstacle k is passed in gap g.
+Passage SideOf(std::size_t k, std::size_t g) {
+  return k < g ? Passage::kLeft : Passage::kRight;
+}
 
 }  // namespace
 
@@ -104,63 +111,73 @@ double PassingPlanner::DecideGroup(std::span<const Obstacle> obstacles, std::spa
                                    double time, double distance, double upsilon) {
   std::sort(group.begin(), group.end(),
             [](const Meeting& a, const Meeting& b) { return a.lateral < b.lateral; });
-  const double half_width = settings_.footprint.half_width;
-  const double keep = half_width + settings_.margin;
-  const double right_edge = profile_->road().right + half_width + settings_.road_margin;
-  const double left_edge = profile_->road().left - half_width - settings_.road_margin;
   // The vehicle can stop within the remaining distance at 90 % of the grip; at a walking pace, it can stop anywhere.
   const bool can_stop = upsilon * upsilon < 1.8 * settings_.grip * std::max(distance, kStoppedWithin);
-  const double margins = settings_.margin + std::min(settings_.margin, settings_.road_margin);
-  // Gap g lies left of the first g obstacles and right of the others.
-  double best_cost = std::numeric_limits<double>::infinity();
+  double best_cost = kNoGap;
   double best_lateral = from;
   std::size_t best = 0;
   for (std::size_t g = 0; g <= group.size(); ++g) {
-    double lo = right_edge, hi = left_edge;
-    bool allowed = true, kept_all = true, stopped = false;
-    int changes = 0;
-    for (std::size_t k = 0; k < group.size(); ++k) {
-      const Meeting& m = group[k];
-      const Passage passage = k < g ? Passage::kLeft : Passage::kRight;
-      if (k < g) {
-        lo = std::max(lo, m.lateral + m.half_width + keep);
-      } else {
-        hi = std::min(hi, m.lateral - m.half_width - keep);
-      }
-      const Obstacle& obstacle = obstacles[m.index];
-      allowed = allowed && Allowed(obstacle, passage);
-      const Passage kept = Kept(obstacle);
-      kept_all = kept_all && kept == passage;
-      stopped = stopped || kept == Passage::kStop;
-      if ((kept == Passage::kLeft || kept == Passage::kRight) && kept != passage) ++changes;
-    }
-    // A vehicle that can no longer stop may use up the margins.
-    const double spare = can_stop ? (kept_all ? kKept : (stopped ? -kReopened : 0.0)) : margins;
-    if (!allowed || lo - hi > spare) continue;
-    const double lacking = std::max(lo - hi, 0.0);
-    if (lacking > 0.0) lo = hi = 0.5 * (lo + hi);
-    const double to = std::clamp(0.0, lo, hi);
-    const double shift = std::abs(std::clamp(from, lo, hi) - from);
-    // A lateral move of y within t needs an acceleration of 4 y/t².
-    const double needed = 4.0 * shift / (time * time) / settings_.grip;
-    const double cost = shift + std::abs(to) + kBeyondGrip * std::max(needed - 1.0, 0.0) +
-                        kLacking * lacking + kChange * changes;
-    if (cost < best_cost) {
-      best_cost = cost;
-      best_lateral = to;
+    const Gap gap = GapAt(obstacles, group, g);
+    if (!gap.allowed || gap.lo - gap.hi > Spare(gap, can_stop)) continue;
+    const GapUse use = Use(gap, from, time);
+    if (use.cost < best_cost) {
+      best_cost = use.cost;
+      best_lateral = use.lateral;
       best = g;
     }
   }
   // If a gap needs more than the tyres can give, the vehicle stops, provided that it still can; if there is no gap,
   // it brakes in any case.
-  const bool none = !(best_cost < std::numeric_limits<double>::infinity());
-  const bool stop = none || (best_cost > kTooMuch && can_stop);
+  const bool stop = best_cost == kNoGap || (best_cost > kTooMuch && can_stop);
   for (std::size_t k = 0; k < group.size(); ++k) {
     Passage& passage = decisions_[group[k].index].passage;
-    passage = stop ? Passage::kStop : (k < best ? Passage::kLeft : Passage::kRight);
+    passage = stop ? Passage::kStop : SideOf(k, best);
     Kept(obstacles[group[k].index]) = passage;
   }
   return best_lateral;
+}
+
+PassingPlanner::Gap PassingPlanner::GapAt(std::span<const Obstacle> obstacles, std::span<const Meeting> group,
+                                          std::size_t g) {
+  const double half_width = settings_.footprint.half_width;
+  const double keep = half_width + settings_.margin;
+  Gap gap{.lo = profile_->road().right + half_width + settings_.road_margin,
+          .hi = profile_->road().left - half_width - settings_.road_margin};
+  for (std::size_t k = 0; k < group.size(); ++k) {
+    const Meeting& m = group[k];
+    if (k < g) {
+      gap.lo = std::max(gap.lo, m.lateral + m.half_width + keep);
+    } else {
+      gap.hi = std::min(gap.hi, m.lateral - m.half_width - keep);
+    }
+    const Obstacle& obstacle = obstacles[m.index];
+    const Passage passage = SideOf(k, g), kept = Kept(obstacle);
+    gap.allowed = gap.allowed && Allowed(obstacle, passage);
+    gap.kept = gap.kept && kept == passage;
+    gap.stopped = gap.stopped || kept == Passage::kStop;
+    if ((kept == Passage::kLeft || kept == Passage::kRight) && kept != passage) ++gap.changes;
+  }
+  return gap;
+}
+
+double PassingPlanner::Spare(const Gap& gap, bool can_stop) const {
+  // A vehicle that can no longer stop may use up the margins.
+  if (!can_stop) return settings_.margin + std::min(settings_.margin, settings_.road_margin);
+  if (gap.kept) return kKept;
+  return gap.stopped ? -kReopened : 0.0;
+}
+
+PassingPlanner::GapUse PassingPlanner::Use(const Gap& gap, double from, double time) const {
+  double lo = gap.lo, hi = gap.hi;
+  const double lacking = std::max(lo - hi, 0.0);
+  if (lacking > 0.0) lo = hi = 0.5 * (lo + hi);
+  const double to = std::clamp(0.0, lo, hi);
+  const double shift = std::abs(std::clamp(from, lo, hi) - from);
+  // A lateral move of y within t needs an acceleration of 4 y/t².
+  const double needed = 4.0 * shift / (time * time) / settings_.grip;
+  const double cost = shift + std::abs(to) + kBeyondGrip * std::max(needed - 1.0, 0.0) + kLacking * lacking +
+                      kChange * gap.changes;
+  return {.cost = cost, .lateral = to};
 }
 
 }  // namespace control

@@ -2,7 +2,7 @@
 // profile, the stop lines and a comfortable acceleration allow. A vehicle that is late or early is not dragged.
 //
 // Each state is that of steady cornering on the road profile (steady_cornering.hpp), so that a bend causes no
-// spurious error: ω = κ υ, ψ = ψ_course − ν/υ.
+// spurious error: ω = κ υ, ψ = ψ_road − ν/υ.
 #pragma once
 
 #include <span>

@@ -36,7 +36,7 @@ class RoadProfile {
   [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position, double hint) const;
 
  private:
-  std::vector<RoutePoint> points_;  // at k spacing_
+  std::vector<RoutePoint> points_;  // points at s = k spacing_
   double spacing_;
   double length_;
   RoadBounds road_;

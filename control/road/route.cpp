@@ -17,7 +17,7 @@ using detail::LinearCurvature;
 using Eigen::Vector2d;
 
 struct Segment {
-  double s = 0.0;  // of its start
+  double s = 0.0;  // arc length at its start [m]
   double length = 0.0;
   RoutePoint start;
   std::variant<LinearCurvature, Cubic> shape;
@@ -29,7 +29,7 @@ struct Segment {
 
 // Target speed v = v_from + slope s', s' from 0 to length: s'(t) = v_from (e^{slope t} - 1) / slope.
 struct SpeedRamp {
-  double s;  // of its start
+  double s;  // arc length at its start [m]
   double t;
   double length;
   double from;
@@ -57,7 +57,7 @@ void Require(bool holds, const std::string& text) {
   if (!holds) throw std::invalid_argument(text);
 }
 
-constexpr double kSampleSpacing = 1.0;  // of the coarse search for the nearest point [m]
+constexpr double kSampleSpacing = 1.0;  // step of the coarse search for the nearest point [m]
 constexpr double kHintWindow = 25.0;    // [m]
 
 }  // namespace

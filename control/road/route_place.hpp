@@ -12,7 +12,7 @@ struct RoutePlace {
   double s = 0.0;         // arc length of the route at that sample [m]
   std::int64_t due =
       0;  // sample at which the vehicle would be, had it kept to the reference's times since engagement
-  int samples = 0;       // of the route
+  int samples = 0;       // number of samples of the route
   bool arrived = false;  // the vehicle stands at the end
 };
 

@@ -12,13 +12,13 @@ DelayCompensator::DelayCompensator(const VehicleParameters& vehicle, double t_s,
   given_.fill(Input::Zero());
 }
 
-void DelayCompensator::Given(const Input& u) {
+void DelayCompensator::Record(const Input& u) {
   newest_ = (newest_ + 1) % kMost;
   given_[newest_] = u;
 }
 
 // The command of j cycles ago acts from delay − j t_s until delay − (j − 1) t_s.
-State DelayCompensator::Ahead(const State& z, double age) const {
+State DelayCompensator::Predict(const State& z, double age) const {
   constexpr double kNothing = 1e-9;  // [s]
   constexpr double kStep = 0.01;     // longest integration step [s]
   State ahead = z;

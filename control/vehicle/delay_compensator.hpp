@@ -18,13 +18,13 @@ class DelayCompensator {
   DelayCompensator(const VehicleParameters& vehicle, double t_s, double delay);
 
   // Records the command that was given; called once per cycle.
-  void Given(const Input& u);
+  void Record(const Input& u);
   // Assumes that `u` acts and has been acting: the vehicle is driven by others.
   void Reset(const Input& u) { given_.fill(u); }
 
   // Predicts the state `delay` after now from the state `z` measured `age` >= 0 [s] before now. The newest command
   // given is that of the previous cycle.
-  [[nodiscard]] State Ahead(const State& z, double age) const;
+  [[nodiscard]] State Predict(const State& z, double age) const;
 
   [[nodiscard]] double delay() const { return delay_; }
 

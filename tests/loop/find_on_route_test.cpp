@@ -16,9 +16,9 @@ control::State At(double X, double Y, double psi) {
   return z;
 }
 
-class RoutePlace : public testing::Test {
+class FindOnRouteTest : public testing::Test {
  protected:
-  RoutePlace() {
+  FindOnRouteTest() {
     for (int i = 0; i < 100; ++i) {
       points_.emplace_back(0.5 * i, 0.0);
     }
@@ -27,14 +27,14 @@ class RoutePlace : public testing::Test {
   control::RoadBounds road_{.left = 3.0, .right = -2.0};
 };
 
-TEST_F(RoutePlace, NearestPointOnTheRoad) {
+TEST_F(FindOnRouteTest, NearestPointOnTheRoad) {
   const control::TimeReference reference(points_, 0.05);
   EXPECT_EQ(FindOnRoute(reference, road_, At(10.1, 2.9, 0.2), 0.5), 20);
   EXPECT_EQ(FindOnRoute(reference, road_, At(10.1, -1.9, -0.2), 0.5), 20);
   EXPECT_EQ(FindOnRoute(reference, road_, At(0.0, 0.0, 0.0), 0.5), 0);
 }
 
-TEST_F(RoutePlace, NoneOffTheRoadBeforeItBehindItOrAcrossIt) {
+TEST_F(FindOnRouteTest, NoneOffTheRoadBeforeItBehindItOrAcrossIt) {
   const control::TimeReference reference(points_, 0.05);
   EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, 3.1, 0.0), 0.5));
   EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, -2.1, 0.0), 0.5));
@@ -43,7 +43,15 @@ TEST_F(RoutePlace, NoneOffTheRoadBeforeItBehindItOrAcrossIt) {
   EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, 0.0, 0.6), 0.5));
 }
 
-TEST_F(RoutePlace, CircuitBeginsWithItsFirstLap) {
+TEST_F(FindOnRouteTest, OfTwoLegsOnlyTheOneAlongWhichTheVehicleHeadsIsFound) {
+  // There at y = 0, back at y = 3, 100 points each.
+  for (int i = 0; i < 100; ++i) points_.emplace_back(49.5 - 0.5 * i, 3.0);
+  const control::TimeReference reference(points_, 0.05);
+  EXPECT_EQ(FindOnRoute(reference, road_, At(20.0, 2.0, 0.0), 0.5), 40);
+  EXPECT_EQ(FindOnRoute(reference, road_, At(20.0, 2.0, std::numbers::pi), 0.5), 159);
+}
+
+TEST_F(FindOnRouteTest, CircuitBeginsWithItsFirstLap) {
   points_.clear();
   for (int i = 0; i < 1000; ++i) {
     const double angle = i * 2.0 * std::numbers::pi / 400.0;

@@ -24,7 +24,7 @@ TEST(Fault, EachCauseHasARowOfItsOwnWithAText) {
 TEST(Fault, AnEventHasNoCodeAndEveryFaultHasOne) {
   for (int i = 0; i < kCauses; ++i) {
     const CauseRow& row = RowOf(static_cast<Cause>(i));
-    EXPECT_EQ(row.severity == Severity::kEvent, row.code == bus::FaultCode::kNone) << row.text;
+    EXPECT_EQ(row.severity == Severity::kEvent, row.code == bus::FaultCode::kNone) << Name(row.cause);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/percentile.hpp"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/sim/fake_daemon.hpp"
@@ -185,20 +184,6 @@ TEST_F(SummaryTest, TellsTheFirstAndTheWorstOfWhatWasNotMet) {
   EXPECT_EQ(json["first_unmet"], first_unmet);
   EXPECT_NEAR(json["worst_unmet"]["amount"], 0.11, 1e-9);
   EXPECT_THAT(ToText(summary), HasSubstr("step 10: obstacle 3 at i = 20, by 0.090 (relaxed)"));
-}
-
-TEST(Percentile, IsTheValueOfTheNearestRank) {
-  std::vector<int> values;
-  for (int i = 1; i <= 100; ++i) values.push_back(i);
-  EXPECT_EQ(base::Percentile(values, 0.5), 50);
-  EXPECT_EQ(base::Percentile(values, 0.07), 7);
-  EXPECT_EQ(base::Percentile(values, 0.99), 99);
-  EXPECT_EQ(base::Percentile(values, 1.0), 100);
-  values.push_back(101);
-  EXPECT_EQ(base::Percentile(values, 0.5), 51);
-  EXPECT_EQ(base::Percentile(values, 0.99), 100);
-  EXPECT_EQ(base::Percentile(std::vector<double>{3.5}, 0.0), 3.5);
-  EXPECT_EQ(base::Percentile(std::vector<double>{}, 0.5), 0.0);
 }
 
 TEST(SummaryJson, HasTheAgreedKeys) {

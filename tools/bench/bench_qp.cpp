@@ -57,7 +57,7 @@ Line Measure(const std::vector<Named>& all, bool warm, int repeat) {
   Solver solver(horizon);
   control::OcpQp<8, 2> qp(horizon);
   control::OcpQpPoint<8, 2> before(horizon);
-  std::string series;  // of `before`; empty if there is no warm start
+  std::string series;  // series of `before`; empty if there is no warm start
   Line line;
   for (const Named& named : all) {
     const control::OcpQpPoint<8, 2>* warm_start = warm && series == named.series ? &before : nullptr;

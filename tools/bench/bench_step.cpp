@@ -35,7 +35,7 @@ void Drive(const sim::Scenario& scenario, const loop::Config& config, const cont
   const int horizon = loop::HorizonOf(config);
   const control::RoadProfile profile(route.route, route.road, config.speed);
   const std::unique_ptr<control::Controller> controller =
-      tools::MakeController(config, {.by_time = reference, .by_progress = profile});
+      tools::MakeController(config, {.reference = reference, .profile = profile});
   sim::Plant plant(scenario.plant, reference[0]);
   control::Input u = control::Input::Zero();
   for (int k = 0; k + horizon < reference.size(); ++k) {

@@ -10,7 +10,7 @@ namespace tools {
 
 struct BenchStepOptions {
   std::filesystem::path scenario;
-  std::filesystem::path config;  // of the daemon; empty: the one named by the scenario
+  std::filesystem::path config;  // the daemon's configuration; empty: that named by the scenario
   std::string controller;        // empty: that of the configuration
   std::vector<int> horizons{8, 15, 40, 80, 200};
   int repeat = 5;  // drives per horizon

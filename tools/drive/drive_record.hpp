@@ -14,12 +14,12 @@ namespace tools {
 
 // One state set with the controller's answer to it.
 struct DriveSample {
-  std::int64_t cycle = 0;  // from 0; lost state sets leave gaps
+  std::int64_t cycle = 0;  // counted from 0; lost state sets leave gaps
   control::State z = control::State::Zero();
-  control::Input u = control::Input::Zero();  // measured actuator values
+  control::Input u = control::Input::Zero();  // measured δ [rad] and a [m/s²]
   bus::ControllerStatus status;               // mode Init if none was received
   bus::SchedulingHealth health;
-  std::vector<Eigen::Vector2d> plan;  // planned positions of steps 0..N; empty if no plan was received
+  std::vector<Eigen::Vector2d> plan;  // planned positions of steps 0..N [m]; empty if no plan was received
 };
 
 struct DriveRecord {

@@ -34,7 +34,7 @@ struct ComparisonRow {
   StepTimes paper_nmpc, paper_lpv;
   ComparedDrive nmpc, lpv;
 
-  // How many times faster the LPVMPC is on average.
+  // Factor by which the LPVMPC is faster on average.
   [[nodiscard]] double speedup() const { return nmpc.times.average / lpv.times.average; }
   // Relative excess of the LPVMPC's cost over the NMPC's, with the NMPC's weights; 0.1 is 10 %.
   [[nodiscard]] double cost_gap() const { return lpv.figures.cost / nmpc.figures.cost - 1.0; }

@@ -10,7 +10,7 @@ namespace tools {
 
 struct Encounter {
   control::Obstacle obstacle;   // at its position at `time`
-  double time = 0.0;            // since the start; both are then at the same place along the route [s]
+  double time = 0.0;            // time since the start [s]; both are then at the same place along the route
   double perceived_at = 0.0;    // [s]
   double s = 0.0;               // place of its centre along the route [m]
   double lateral = 0.0;         // offset of its centre, left positive [m]

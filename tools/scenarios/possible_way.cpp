@@ -43,8 +43,8 @@ bool OnPrescribedSide(const Encounter& met, const Gap& gap) {
 }
 
 // The obstacles that the vehicle is beside at the same time as `met`, including `met`.
-std::vector<Encounter> Beside(const std::vector<Encounter>& all, const Encounter& met,
-                              const control::Footprint& footprint) {
+std::vector<Encounter> MetTogether(const std::vector<Encounter>& all, const Encounter& met,
+                                   const control::Footprint& footprint) {
   std::vector<Encounter> beside;
   for (const Encounter& other : all) {
     const double apart = std::abs(other.s - met.s);
@@ -58,7 +58,7 @@ std::vector<Encounter> Beside(const std::vector<Encounter>& all, const Encounter
 // The least shift from the road's middle that leads past `met`; none if no gap is wide enough on the prescribed side.
 std::optional<double> LeastShift(const std::vector<Encounter>& all, const Encounter& met,
                                  const sim::Scenario& scenario) {
-  const std::vector<Encounter> beside = Beside(all, met, scenario.footprint);
+  const std::vector<Encounter> beside = MetTogether(all, met, scenario.footprint);
   std::vector<Gap> gaps;
   double right = scenario.road.right;
   for (const Encounter& other : beside) {

@@ -8,7 +8,7 @@
 namespace tools {
 
 struct SweepPart {
-  SweepResult result;  // of the shard's scenarios only
+  SweepResult result;  // result of the shard's scenarios only
   Shard shard;
 };
 

@@ -16,7 +16,7 @@
 namespace tools {
 
 struct SweptScenario {
-  int index = 0;  // in the sweep, from 0
+  int index = 0;  // index in the sweep, from 0
   std::uint64_t seed = 0;
   std::string description;
   PossibleWay way = PossibleWay::kNone;
@@ -26,7 +26,7 @@ struct SweptScenario {
 struct SweepResult {
   SweepSetup setup;
   std::vector<SweptScenario> scenarios;  // by increasing index
-  std::vector<TimeHistogram> times;      // of control steps, in the order of the controllers
+  std::vector<TimeHistogram> times;      // times of control steps, in the order of the controllers
 };
 
 // One line of the table.

@@ -24,11 +24,11 @@ class AffineNmpcProblemTest : public ::testing::Test {
     settings_.horizon = 5;
     loop_ = std::make_unique<BusyRoad>(settings_);
     loop_->PlaceAt(57.0, 9.0, -1.0);
-    task_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->profile(), settings_);
+    tracking_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->profile(), settings_);
     problem_ = std::make_unique<AffineNmpcProblem>(VehicleParameters{}, settings_);
-    task_->Begin(loop_->z(), loop_->s(), loop_->obstacles());
-    EXPECT_TRUE(task_->BuildConstraints(task_->reference()));
-    problem_->Set(*task_, {0.02, 0.3});
+    tracking_->Begin(loop_->z(), loop_->s(), loop_->obstacles());
+    EXPECT_TRUE(tracking_->BuildConstraints(tracking_->reference()));
+    problem_->Set(*tracking_, {0.02, 0.3});
     x_ = random_.Filled<Eigen::Matrix<double, 400, 1>>(0.5).head(problem_->variables());
     for (int i = 1; i <= settings_.horizon; ++i) x_[problem_->StateAt(i) + kUpsilon] += 5.0 + i;
   }
@@ -36,7 +36,7 @@ class AffineNmpcProblemTest : public ::testing::Test {
   Random random_{5};
   LpvAffineSettings settings_;
   std::unique_ptr<BusyRoad> loop_;
-  std::unique_ptr<TrackingProblem> task_;
+  std::unique_ptr<TrackingProblem> tracking_;
   std::unique_ptr<AffineNmpcProblem> problem_;
   VectorXd x_;
 };
@@ -69,7 +69,7 @@ TEST_F(AffineNmpcProblemTest, ObstaclesHaveRowsAndTheRoadHasOthers) {
 
 // A trajectory of the model with the slacks that its violations need: no row is violated, and less slack would not do.
 TEST_F(AffineNmpcProblemTest, PointOfATrajectoryHasTheSlacksThatItNeeds) {
-  std::vector<State> z{task_->z()};
+  std::vector<State> z{tracking_->z()};
   const std::vector<Input> u(static_cast<std::size_t>(settings_.horizon), {0.02, 0.3});
   for (const Input& input : u) z.push_back(loop_->model().Step(z.back(), input));
   z.back()[kUpsilon] = settings_.upsilon_max + 3.0;

@@ -175,7 +175,7 @@ TEST_F(Passing, ShiftThatNeedsMoreThanTheGripIsStoppedForWhileThatIsPossible) {
   EXPECT_EQ(DecideAnew(fork(8.0), 0.0, kSlow), Passage::kLeft) << "too late";
 }
 
-TEST_F(Passing, DecisionTellsWhereTheObstacleIsOnTheCourse) {
+TEST_F(Passing, DecisionGivesWhereTheObstacleIsOnTheRoad) {
   Obstacle obstacle = At(40.0, 0.0, 1.0);
   obstacle.r_y = 2.0;
   obstacle.heading = M_PI / 2.0;

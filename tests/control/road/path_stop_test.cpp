@@ -150,7 +150,7 @@ TEST(PathStop, PastTheEndOfTheReferenceItGoesStraightOn) {
   }
 }
 
-TEST(PathStop, ReckonedSpeedEndsAtStandstillAndTheWheelsAreHeld) {
+TEST(PathStop, AssumedSpeedEndsAtStandstillAndTheWheelsAreHeld) {
   const TimeReference reference(Circle(100.0), kTs);
   Stopping stop(reference);
   State z = State::Zero();

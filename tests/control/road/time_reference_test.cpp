@@ -43,7 +43,7 @@ std::string MessageOf(const std::vector<Vector2d>& points, double t_s = kStep) {
   return "no error";
 }
 
-TEST(Reference, LineHasItsSpeedAndHeadingInEveryQuadrant) {
+TEST(TimeReference, LineHasItsSpeedAndHeadingInEveryQuadrant) {
   for (double heading = -3.1; heading <= 3.14; heading += 0.4) {
     const TimeReference reference(Line(heading, 12.0, 30), kStep);
     ASSERT_EQ(reference.size(), 30);
@@ -57,7 +57,7 @@ TEST(Reference, LineHasItsSpeedAndHeadingInEveryQuadrant) {
   }
 }
 
-TEST(Reference, DriveInNegativeXKeepsOneHeading) {
+TEST(TimeReference, DriveInNegativeXKeepsOneHeading) {
   std::vector<Vector2d> points;
   for (int k = 0; k < 40; ++k)
     points.emplace_back(-0.5 * k, k % 2 == 0 ? 1e-4 : -1e-4);  // atan2 alternates ±π
@@ -70,7 +70,7 @@ TEST(Reference, DriveInNegativeXKeepsOneHeading) {
 }
 
 // Chords of a circle: length 2 r sin(α/2), heading half a step ahead of the tangent at the chord's start.
-TEST(Reference, CircleBothWaysRoundUnwrapsPastPi) {
+TEST(TimeReference, CircleBothWaysRoundUnwrapsPastPi) {
   const double r = 50.0;
   for (const double angle : {0.01, -0.01}) {
     const int count = static_cast<int>(4.5 * kPi / std::abs(angle));  // more than two turns
@@ -89,14 +89,14 @@ TEST(Reference, CircleBothWaysRoundUnwrapsPastPi) {
   }
 }
 
-TEST(Reference, WindowIsThePartAskedFor) {
+TEST(TimeReference, WindowIsThePartAskedFor) {
   const TimeReference reference(Circle(30.0, 0.02, 100), kStep);
   std::vector<State> window(9);
   reference.Window(17, window);
   for (int i = 0; i < 9; ++i) EXPECT_EQ(window[static_cast<std::size_t>(i)], reference[17 + i]);
 }
 
-TEST(Reference, WindowPastTheEndGoesOnStraight) {
+TEST(TimeReference, WindowPastTheEndGoesOnStraight) {
   const TimeReference reference(Circle(30.0, 0.02, 100), kStep);
   std::vector<State> window(16);
   for (const int from : {90, 99, 200}) {
@@ -114,7 +114,7 @@ TEST(Reference, WindowPastTheEndGoesOnStraight) {
   }
 }
 
-TEST(Reference, ArcLengthIsThatOfTheCircleAndGoesOnAtTheLastSpeed) {
+TEST(TimeReference, ArcLengthIsThatOfTheCircleAndGoesOnAtTheLastSpeed) {
   const double radius = 30.0, angle = 0.02;
   const TimeReference reference(Circle(radius, angle, 100), kStep);
   for (const int k : {0, 1, 50, 99, 100, 150}) {
@@ -122,7 +122,7 @@ TEST(Reference, ArcLengthIsThatOfTheCircleAndGoesOnAtTheLastSpeed) {
   }
 }
 
-TEST(Reference, RefusedPointIsNamed) {
+TEST(TimeReference, RefusedPointIsNamed) {
   std::vector<Vector2d> points = Line(0.0, 10.0, 10);
   points[6] = points[5];
   EXPECT_THAT(MessageOf(points), AllOf(HasSubstr("5"), HasSubstr("6"), HasSubstr("coincide")));

@@ -24,50 +24,50 @@ State Driven(State z, const Input& u, double time) {
 
 TEST(DelayCompensator, WithoutDelayAndAgeTheStateIsAsMeasured) {
   DelayCompensator delay({}, kPeriod, 0.0);
-  delay.Given({0.1, 1.0});
-  EXPECT_EQ(delay.Ahead(Moving(), 0.0), Moving());
+  delay.Record({0.1, 1.0});
+  EXPECT_EQ(delay.Predict(Moving(), 0.0), Moving());
 }
 
 TEST(DelayCompensator, TheCommandOfTheCycleBeforeActsUntilTheNewOne) {
   DelayCompensator delay({}, kPeriod, 0.03);
-  delay.Given({0.4, -5.0});  // no longer acts
-  delay.Given({0.02, 1.0});
-  const State ahead = delay.Ahead(Moving(), 0.0);
+  delay.Record({0.4, -5.0});  // no longer acts
+  delay.Record({0.02, 1.0});
+  const State ahead = delay.Predict(Moving(), 0.0);
   EXPECT_LT((ahead - Driven(Moving(), {0.02, 1.0}, 0.03)).norm(), 1e-4);
 }
 
 TEST(DelayCompensator, WithALongDelayEveryCommandActsInItsTurn) {
   DelayCompensator delay({}, kPeriod, 0.12);
   const Input first(0.03, 1.0), second(-0.01, -1.0), third(0.02, 0.5);
-  for (const Input& u : {first, second, third}) delay.Given(u);
+  for (const Input& u : {first, second, third}) delay.Record(u);
   State expected = Driven(Moving(), first, 0.02);
   expected = Driven(expected, second, kPeriod);
   expected = Driven(expected, third, kPeriod);
-  EXPECT_LT((delay.Ahead(Moving(), 0.0) - expected).norm(), 1e-4);
+  EXPECT_LT((delay.Predict(Moving(), 0.0) - expected).norm(), 1e-4);
 }
 
 TEST(DelayCompensator, TheAgeOfTheStateIsMadeUpForToo) {
   DelayCompensator delay({}, kPeriod, 0.02);
   const Input before(0.03, 1.0), last(-0.01, -1.0);
-  delay.Given(before);
-  delay.Given(last);
+  delay.Record(before);
+  delay.Record(last);
   // Measured 40 ms ago; the last command began to act 20 ms after it was given, that is 30 ms ago.
   const State expected = Driven(Driven(Moving(), before, 0.01), last, 0.05);
-  EXPECT_LT((delay.Ahead(Moving(), 0.04) - expected).norm(), 1e-4);
+  EXPECT_LT((delay.Predict(Moving(), 0.04) - expected).norm(), 1e-4);
 }
 
 TEST(DelayCompensator, AfterAResetTheGivenInputsHaveAlwaysActed) {
   DelayCompensator delay({}, kPeriod, 0.2);
-  delay.Given({0.4, -5.0});
+  delay.Record({0.4, -5.0});
   delay.Reset({0.01, 0.0});
-  EXPECT_LT((delay.Ahead(Moving(), 0.1) - Driven(Moving(), {0.01, 0.0}, 0.3)).norm(), 1e-4);
+  EXPECT_LT((delay.Predict(Moving(), 0.1) - Driven(Moving(), {0.01, 0.0}, 0.3)).norm(), 1e-4);
 }
 
 TEST(DelayCompensator, AtStandstillNothingMoves) {
   DelayCompensator delay({}, kPeriod, 0.2);
   State still = State::Zero();
   still[kX] = 5.0;
-  EXPECT_EQ(delay.Ahead(still, 0.1), still);
+  EXPECT_EQ(delay.Predict(still, 0.1), still);
 }
 
 }  // namespace

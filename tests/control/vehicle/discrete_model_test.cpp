@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTs = 0.05;
 
-class AffineModelTest : public ::testing::Test {
+class DiscreteModelTest : public ::testing::Test {
  protected:
   State RandomState(double upsilon) {
     State z;
@@ -45,7 +45,7 @@ void ExpectDerivatives(const LinearModel& exact, const State& z, const Input& u,
   EXPECT_LT((exact.B - near.B).cwiseAbs().maxCoeff(), tolerance) << z[kUpsilon];
 }
 
-TEST_F(AffineModelTest, DerivativesOfTheModelAndOfItsStepAreThoseOfTheirDifferencesAtAnySpeed) {
+TEST_F(DiscreteModelTest, DerivativesOfTheModelAndOfItsStepAreThoseOfTheirDifferencesAtAnySpeed) {
   for (double upsilon = 0.0; upsilon < 35.0; upsilon += 0.37) {
     const State z = RandomState(upsilon);
     const Input u = RandomInput();
@@ -59,7 +59,7 @@ TEST_F(AffineModelTest, DerivativesOfTheModelAndOfItsStepAreThoseOfTheirDifferen
   }
 }
 
-TEST_F(AffineModelTest, FastTheModelIsTheDynamicOne) {
+TEST_F(DiscreteModelTest, FastTheModelIsTheDynamicOne) {
   const SingleTrackModel dynamic{VehicleParameters{}};
   for (double upsilon = BlendedModel::kUpsilon2; upsilon < 40.0; upsilon += 1.3) {
     const State z = RandomState(upsilon);
@@ -68,7 +68,7 @@ TEST_F(AffineModelTest, FastTheModelIsTheDynamicOne) {
   }
 }
 
-TEST_F(AffineModelTest, SlowItRollsOnACircleWithoutSlip) {
+TEST_F(DiscreteModelTest, SlowItRollsOnACircleWithoutSlip) {
   const VehicleParameters v;
   const Input u(0.2, 0.0);
   State z = State::Zero();
@@ -79,7 +79,7 @@ TEST_F(AffineModelTest, SlowItRollsOnACircleWithoutSlip) {
   EXPECT_NEAR(z[kNu], v.l_r * z[kOmega], 0.01);
 }
 
-TEST_F(AffineModelTest, StandingItStandsWhateverTheWheelsDo) {
+TEST_F(DiscreteModelTest, StandingItStandsWhateverTheWheelsDo) {
   State z = State::Zero();
   z[kX] = 3.0;
   z[kPsi] = 1.0;
@@ -91,7 +91,7 @@ TEST_F(AffineModelTest, StandingItStandsWhateverTheWheelsDo) {
   }
 }
 
-TEST_F(AffineModelTest, DisturbanceOfTheLateralMotionDiesOutAtAnySpeed) {
+TEST_F(DiscreteModelTest, DisturbanceOfTheLateralMotionDiesOutAtAnySpeed) {
   for (double upsilon = 0.0; upsilon < 40.0; upsilon += 0.1) {
     State z = State::Zero();
     z[kUpsilon] = upsilon;
@@ -102,7 +102,7 @@ TEST_F(AffineModelTest, DisturbanceOfTheLateralMotionDiesOutAtAnySpeed) {
   }
 }
 
-TEST_F(AffineModelTest, ErrorOfAStepFallsWithTheFifthPowerOfItsLength) {
+TEST_F(DiscreteModelTest, ErrorOfAStepFallsWithTheFifthPowerOfItsLength) {
   for (const double upsilon : {1.0, 6.0, 12.0, 25.0}) {
     const State z = RandomState(upsilon);
     const Input u = RandomInput();
