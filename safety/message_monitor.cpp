@@ -37,9 +37,10 @@ std::string_view Name(RxFault fault) {
 MessageMonitor::MessageMonitor(const bus::VehicleBus& bus, const MonitorSettings& settings,
                                base::Time default_period)
     : bus_(&bus) {
-  const std::array<const bus::MessageInfo*, kRxMessages> messages{
-      &bus.Info<bus::VehiclePose>(),      &bus.Info<bus::VehicleMotion>(), &bus.Info<bus::VehicleFeedback>(),
-      &bus.Info<bus::ObstaclePosition>(), &bus.Info<bus::ObstacleList>(),  &bus.Info<bus::DriverRequest>()};
+  const std::array messages{&bus.Info<bus::VehiclePose>(),     &bus.Info<bus::VehicleMotion>(),
+                            &bus.Info<bus::VehicleFeedback>(), &bus.Info<bus::ObstaclePosition>(),
+                            &bus.Info<bus::ObstacleList>(),    &bus.Info<bus::DriverRequest>()};
+  static_assert(messages.size() == kRxMessages);
   for (std::size_t i = 0; i < kRxMessages; ++i) {
     const double period = messages[i]->period;
     table_[i].info = messages[i];
