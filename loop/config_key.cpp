@@ -72,10 +72,11 @@ std::string Allowed(const std::vector<std::string>& choices) {
 }  // namespace key_detail
 
 ConfigKey ChoiceKey(const std::string& name, const std::vector<std::string>& choices,
-                    std::size_t default_choice, const std::function<void(Config&, std::size_t)>& set,
-                    const std::string& sentence, Reload reload) {
+                    const std::function<std::size_t(const Config&)>& get,
+                    const std::function<void(Config&, std::size_t)>& set, const std::string& sentence,
+                    Reload reload) {
   return {.name = name,
-          .default_value = fmt::format("\"{}\"", choices[default_choice]),
+          .default_value = fmt::format("\"{}\"", choices.at(get(Config()))),
           .allowed = key_detail::Allowed(choices),
           .sentence = sentence,
           .read =

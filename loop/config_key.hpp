@@ -110,7 +110,7 @@ ConfigKey OptionalKey(const std::string& name, Place place, const Bounds& bounds
 
 // A key whose value is one of `choices`; `set` takes the index.
 [[nodiscard]] ConfigKey ChoiceKey(const std::string& name, const std::vector<std::string>& choices,
-                                  std::size_t default_choice,
+                                  const std::function<std::size_t(const Config&)>& get,
                                   const std::function<void(Config&, std::size_t)>& set,
                                   const std::string& sentence, Reload reload = Reload::kNeedsRestart);
 

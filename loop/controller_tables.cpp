@@ -27,18 +27,21 @@ ConfigTable ControllerTable() {
       "All keys but _kind_ are settings of the paper's controllers.",
       {
           ChoiceKey(
-              "kind", ControllerNames(), 0,
+              "kind", ControllerNames(),
+              [](const Config& c) { return static_cast<std::size_t>(c.controller); },
               [](Config& c, std::size_t i) { c.controller = static_cast<ControllerKind>(i); },
               "_lpv-affine_ is set in [lpv_affine]. The paper's controllers are _lpv_, with the scheduling "
               "trust "
               "region, and _lpv-standard_, without it. The nonlinear controllers _nmpc_ (the paper's) and "
-              "_nmpc-affine_ (the "
-              "problem of lpv-affine) are for *lpvmpc*(1) alone; the daemon refuses them"),
+              "_nmpc-affine_ (the problem of lpv-affine) are for *lpvmpc*(1) alone; the daemon refuses them"),
           Key(
               "horizon", [](Config& c) { return &c.mpc.horizon; }, {2, 100, ""},
               "Number of steps of the horizon, N"),
           ChoiceKey(
-              "discretisation", {"euler", "zero-order-hold"}, 0,
+              "discretisation", {"euler", "zero-order-hold"},
+              [](const Config& c) {
+                return static_cast<std::size_t>(c.mpc.discretisation != control::Discretisation::kEuler);
+              },
               [](Config& c, std::size_t i) {
                 c.mpc.discretisation =
                     i == 0 ? control::Discretisation::kEuler : control::Discretisation::kZeroOrderHold;
@@ -88,7 +91,10 @@ ConfigTable LpvAffineTable() {
                   "R_rate", [](Config& c) { return &c.affine.R_rate; }, kPositive,
                   "Weights of the change of steering and acceleration in a step"),
               ChoiceKey(
-                  "trust_region", {"adaptive", "fixed", "none"}, 0,
+                  "trust_region", {"adaptive", "fixed", "none"},
+                  [](const Config& c) -> std::size_t {
+                    return !c.affine.trust_region ? 2 : (c.affine.adapt_trust_region ? 0 : 1);
+                  },
                   [](Config& c, std::size_t i) {
                     c.affine.adapt_trust_region = i == 0;
                     c.affine.trust_region = i < 2;

@@ -1,5 +1,6 @@
 #include "loop/service_tables.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -100,7 +101,11 @@ ConfigTable LogTable() {
   return {"log",
           "",
           {ChoiceKey(
-              "level", levels, 1, [levels](Config& c, std::size_t i) { c.log_level = levels[i]; },
+              "level", levels,
+              [levels](const Config& c) {
+                return static_cast<std::size_t>(std::ranges::find(levels, c.log_level) - levels.begin());
+              },
+              [levels](Config& c, std::size_t i) { c.log_level = levels[i]; },
               "Least severe messages that are logged", Reload::kAlways)}};
 }
 

@@ -56,4 +56,12 @@ struct PathOffset {
   return {point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi)};
 }
 
+// The point `distance` [m] ahead on the straight extension of the route at `point`.
+[[nodiscard]] inline RoutePoint StraightAhead(RoutePoint point, double distance) {
+  point.X += distance * std::cos(point.psi);
+  point.Y += distance * std::sin(point.psi);
+  point.curvature = 0.0;
+  return point;
+}
+
 }  // namespace control

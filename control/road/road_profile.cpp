@@ -8,12 +8,6 @@
 namespace control {
 namespace {
 
-RoutePoint Ahead(RoutePoint point, double distance) {
-  point.X += distance * std::cos(point.psi);
-  point.Y += distance * std::sin(point.psi);
-  return point;
-}
-
 double Mix(double from, double to, double share) {
   return from + share * (to - from);
 }
@@ -45,14 +39,10 @@ RoadProfile::RoadProfile(const Route& route, const RoadBounds& road, const Speed
 
 RoutePoint RoadProfile::At(double s) const {
   if (s <= 0.0) {
-    RoutePoint before = Ahead(points_.front(), s);
-    before.curvature = 0.0;
-    return before;
+    return StraightAhead(points_.front(), s);
   }
   if (s >= length_) {
-    RoutePoint after = Ahead(points_.back(), s - length_);
-    after.curvature = 0.0;
-    return after;
+    return StraightAhead(points_.back(), s - length_);
   }
   const double place = s / spacing_;
   const auto k = std::min(static_cast<std::size_t>(place), points_.size() - 2);

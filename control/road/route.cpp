@@ -98,11 +98,7 @@ struct Route::Geometry {
       const Segment& segment = LastNotAbove(segments, &Segment::s, inside);
       point = segment.At(std::min(inside - segment.s, segment.length));
     }
-    if (s != inside) {
-      point.X += (s - inside) * std::cos(point.psi);
-      point.Y += (s - inside) * std::sin(point.psi);
-      point.curvature = 0.0;
-    }
+    if (s != inside) point = StraightAhead(point, s - inside);
     const SpeedRamp& ramp = LastNotAbove(ramps, &SpeedRamp::s, inside);
     point.speed = ramp.from + ramp.Slope() * std::min(inside - ramp.s, ramp.length);
     return point;

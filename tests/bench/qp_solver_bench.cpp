@@ -34,10 +34,10 @@ void SolveCold(benchmark::State& state, const std::string& name) {
   Solve(state, Read(name), nullptr);
 }
 
-void SolveWarm(benchmark::State& state, const std::string& name, const std::string& guess_name) {
+void SolveWarm(benchmark::State& state, const std::string& name, const std::string& other_name) {
   const OcpQp<8, 2> qp = Read(name);
   OcpQpSolver<8, 2> before(qp.horizon());
-  (void)before.Solve(Read(guess_name));
+  (void)before.Solve(Read(other_name));
   Solve(state, qp, &before.solution());
 }
 

@@ -79,20 +79,20 @@ class ManPages(unittest.TestCase):
         for program, command in COMMANDS:
             with self.subTest(program=program, command=command):
                 text = help_of(program, command)
-                told = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, flags=re.M)) - {"--help"}
+                listed = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, flags=re.M)) - {"--help"}
                 page = sections(PAGES[program])
                 if command == "bench":
-                    self.assertEqual(told, set())
+                    self.assertEqual(listed, set())
                     continue
                 heading = {"lpvmpc": f"LPVMPC {command}".strip().upper()}.get(program, "OPTIONS")
                 heading = "DESCRIPTION" if heading == "LPVMPC" else heading
                 names = set(documented(page[heading])) - {"--help", "-h"}
-                self.assertEqual({name for name in names if name.startswith("--")}, told)
+                self.assertEqual({name for name in names if name.startswith("--")}, listed)
 
     def test_every_command_of_help_has_its_section(self):
-        told = re.findall(r"^  ([a-z]+) ", help_of("lpvmpc", "").split("Subcommands:")[1], flags=re.M)
+        listed = re.findall(r"^  ([a-z]+) ", help_of("lpvmpc", "").split("Subcommands:")[1], flags=re.M)
         headings = [heading.split()[1].lower() for heading in sections("lpvmpc.1") if heading.startswith("LPVMPC ")]
-        self.assertEqual(list(dict.fromkeys(headings)), told)
+        self.assertEqual(list(dict.fromkeys(headings)), listed)
 
     def test_every_default_on_the_page_is_accepted(self):
         keys = configuration()

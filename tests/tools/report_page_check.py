@@ -51,13 +51,13 @@ def check_page(chromium, path, plots):
                       "document.querySelector('.fault') !== null", "the page to be drawn")
     faults = chromium.run("return [...document.querySelectorAll('.fault')].map(fault => fault.textContent)")
     assert not faults, f"the page reports a fault: {faults}"
-    told = int(chromium.run("return document.documentElement.dataset.plots"))
+    reported = int(chromium.run("return document.documentElement.dataset.plots"))
     seen = read_plots(chromium)
-    assert told == plots and len(seen) == plots, f"{told} plots reported and {len(seen)} seen, not {plots}"
+    assert reported == plots and len(seen) == plots, f"{reported} plots reported and {len(seen)} seen, not {plots}"
     for plot in seen:
         assert plot["title"] and plot["label"], f"a plot has no name: {plot}"
         assert plot["coloured"] >= LEAST_COLOURED, f"nothing is drawn in {plot}"
-    assert not (told := complaints(chromium)), f"the browser complains: {told}"
+    assert not (reported := complaints(chromium)), f"the browser complains: {reported}"
     asked = chromium.requests()
     asked += chromium.run("return performance.getEntriesByType('resource').map(entry => entry.name)")
     foreign = [address for address in asked if not address.startswith(("file:", "data:"))]

@@ -49,7 +49,7 @@ void ExpectOptimal(const Problem& problem, const Eigen::VectorXd& lambda, int in
   for (int j = 0; j < problem.size(); ++j) {
     const Row& row = problem.rows[static_cast<std::size_t>(j)];
     const double g = row.value - M_lambda[j], size = std::abs(lambda[j]);
-    const double outwards = lambda[j] < 0.0 ? row.lo - g : g - row.hi;  // beyond the bound that λ presses on
+    const double outwards = lambda[j] < 0.0 ? row.lo - g : g - row.hi;  // beyond the active bound
     const bool soft = row.rho >= 0.0;
     SCOPED_TRACE(::testing::Message() << "instance " << instance << ", row " << j << ", λ = " << lambda[j]);
     if (lambda[j] == 0.0) {
@@ -161,7 +161,7 @@ TEST(DualActiveSet, RayProvesThatRowsContradictEachOther) {
       const Row& row = problem.rows[static_cast<std::size_t>(j)];
       ray[j] = dual.ray(j);
       if (ray[j] == 0.0) continue;
-      EXPECT_LT(row.rho, 0.0) << i << ": a soft row gives way";
+      EXPECT_LT(row.rho, 0.0) << i << ": a soft row is relaxed";
       const double bound = ray[j] > 0.0 ? row.hi : row.lo;
       ASSERT_TRUE(std::isfinite(bound)) << i;
       gain += ray[j] * (row.value - bound);

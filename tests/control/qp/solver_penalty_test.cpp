@@ -35,7 +35,7 @@ TEST_P(OcpQpSolverBy, SoftRowGivesWayByItsWeight) {
   }
 }
 
-// Of x ≤ hi the multiplier is 1 − 2x: 0.6 where x = 0.2 is held. What σ does not pay for, x gives way:
+// The multiplier of x ≤ hi is 1 − 2x: 0.6 where x = 0.2 is held. Where σ is too small for that, the row is relaxed:
 // min ½(x−1)² + ½x² + ½ρ(x−hi)² + σ(x−hi).
 TEST_P(OcpQpSolverBy, ExactPenaltyHoldsARowWhoseMultiplierIsBelowIt) {
   for (const double rho : {0.0, 1e-3, 1.0, 1e3}) {
