@@ -8,11 +8,8 @@
 #include "control/vehicle/geometry.hpp"
 
 namespace control {
-namespace {
 
 using Eigen::Vector2d;
-
-}  // namespace
 
 TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                                  const LpvAffineSettings& settings)

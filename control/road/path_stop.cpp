@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/road/projection.hpp"
 #include "control/vehicle/geometry.hpp"
 #include "control/vehicle/steady_cornering.hpp"
 
@@ -23,7 +24,7 @@ double PathStop::Steering(const RouteMotion& motion, double offset, double appli
   Eigen::Vector2d to_target = Eigen::Vector2d::Zero();
   for (int k = motion.nearest; k < motion.nearest + kMostSamples && to_target.norm() < look_ahead; ++k) {
     const State z = reference_->At(k);
-    to_target = Position(z) + offset * LeftOf(z[kPsi]) - motion.p;
+    to_target = Beside(z, offset) - motion.p;
   }
   const double curvature = 2.0 * LeftOf(motion.travel_direction).dot(to_target) / to_target.squaredNorm();
   const double step = settings_.max_steering_rate * settings_.t_s;

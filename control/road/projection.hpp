@@ -3,8 +3,12 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "control/road/route.hpp"
+#include "control/vehicle/geometry.hpp"
+#include "control/vehicle/types.hpp"
 
 namespace control {
 
@@ -54,6 +58,27 @@ struct PathOffset {
 // The point `lateral` [m] beside the route, left positive.
 [[nodiscard]] inline Eigen::Vector2d Beside(const RoutePoint& point, double lateral) {
   return {point.X - lateral * std::sin(point.psi), point.Y + lateral * std::cos(point.psi)};
+}
+
+[[nodiscard]] inline Eigen::Vector2d Beside(const State& z, double lateral) {
+  return Position(z) + lateral * LeftOf(z[kPsi]);
+}
+
+// The state of a sampled reference beside `position`, interpolated; on the straight extensions before its first and after
+// its last sample. On the outside of a corner it is on the extension of the leg before the corner.
+[[nodiscard]] inline State InterpolateBeside(const Eigen::Vector2d& position,
+                                             std::span<const State> reference) {
+  State beside = reference.front();
+  for (std::size_t i = 0; i + 1 < reference.size(); ++i) {
+    const Eigen::Vector2d from = Position(reference[i]);
+    const Eigen::Vector2d way = Position(reference[i + 1]) - from;
+    if (way.squaredNorm() < 1e-6) break;
+    const double share = (position - from).dot(way) / way.squaredNorm();
+    if (i > 0 && share < 0.0) break;
+    beside = reference[i] + share * (reference[i + 1] - reference[i]);
+    if (share <= 1.0) break;
+  }
+  return beside;
 }
 
 // The point `distance` [m] ahead on the straight extension of the route at `point`.

@@ -48,7 +48,7 @@ TEST(ActivePlanTest, RestOfThePlanBeginsAtTheStepAndEndsWithTheLastInput) {
     EXPECT_EQ(rest.back(), Nth(kHorizon - 1));
   }
   EXPECT_TRUE(active.From(kMade - 1).empty());
-  EXPECT_TRUE(active.From(kMade + kHorizon).empty());
+  EXPECT_TRUE(active.From(kMade + kHorizon + 1).empty());
 }
 
 TEST(ActivePlanTest, NewPlanLeavesNothingOfTheOldOne) {

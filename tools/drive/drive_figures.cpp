@@ -6,27 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "control/road/projection.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/geometry.hpp"
 #include "loop/violation_text.hpp"
 
 namespace tools {
 namespace {
-
-// The reference's point beside the vehicle; the reference is extended straight beyond its first and last points.
-control::State ReferenceBeside(const control::State& z, std::span<const control::State> reference) {
-  control::State beside = reference.front();
-  for (std::size_t i = 0; i + 1 < reference.size(); ++i) {
-    const Eigen::Vector2d from = control::Position(reference[i]);
-    const Eigen::Vector2d way = control::Position(reference[i + 1]) - from;
-    if (way.squaredNorm() < 1e-6) break;
-    const double share = (control::Position(z) - from).dot(way) / way.squaredNorm();
-    if (i > 0 && share < 0.0) break;  // z is on the outside of a corner
-    beside = reference[i] + share * (reference[i + 1] - reference[i]);
-    if (share <= 1.0) break;
-  }
-  return beside;
-}
 
 // Accumulates the figures of a drive. The applied input is observed as u_{k−1} of the next step.
 class Meter {
@@ -46,7 +32,8 @@ class Meter {
     reference_.Window(static_cast<int>(observed.controller.ProgressAt(observed.input.place).sample), window_);
     control::State z = observed.input.z;
     z[control::kPsi] = control::UnwrapAngle(z[control::kPsi], window_.front()[control::kPsi]);
-    const control::State error = z - (weights_.along ? window_.front() : ReferenceBeside(z, window_));
+    const control::State error =
+        z - (weights_.along ? window_.front() : control::InterpolateBeside(control::Position(z), window_));
     figures_.cost += weights_.Q.dot(error.cwiseAbs2());
     if (observed.plan.status != control::SolverStatus::kSolved && !figures_.first_failure) {
       figures_.first_failure = {.step = static_cast<int>(figures_.step_seconds.size()),

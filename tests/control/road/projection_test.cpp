@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "gtest/gtest.h"
@@ -78,7 +79,7 @@ TEST(OffsetFrom, IsTheWayAheadAndToTheLeftThatLeadsToThePosition) {
 }
 
 TEST(Beside, IsPerpendicularToTheRouteAndToTheLeftOfIt) {
-  const Vector2d left = Beside({.X = 4.0, .Y = 1.0, .psi = kPi / 2.0}, 1.5);
+  const Vector2d left = Beside(RoutePoint{.X = 4.0, .Y = 1.0, .psi = kPi / 2.0}, 1.5);
   EXPECT_NEAR(left.x(), 2.5, 1e-12);
   EXPECT_NEAR(left.y(), 1.0, 1e-12);
   testing::Random random(13);
@@ -90,7 +91,31 @@ TEST(Beside, IsPerpendicularToTheRouteAndToTheLeftOfIt) {
     const PathOffset offset = OffsetFrom(Position(point), point.psi, Beside(point, lateral));
     EXPECT_NEAR(offset.ahead, 0.0, 1e-12);
     EXPECT_NEAR(offset.left, lateral, 1e-12);
+    State z = State::Zero();
+    z << point.X, point.Y, 0.0, 0.0, point.psi, 0.0;
+    EXPECT_LT((Beside(z, lateral) - Beside(point, lateral)).norm(), 1e-12);
   }
+}
+
+TEST(InterpolateBeside, FindsTheFootOnALineAndItsExtensions) {
+  std::vector<State> line(5, State::Zero());
+  for (int k = 0; k < 5; ++k) line[static_cast<std::size_t>(k)] << 2.0 * k, 0.0, 10.0 + k, 0.0, 0.0, 0.0;
+  for (const double x : {-1.5, 0.0, 3.0, 7.9, 9.0}) {
+    const State beside = InterpolateBeside({x, 1.0}, line);
+    EXPECT_NEAR(beside[kX], x, 1e-12);
+    EXPECT_NEAR(beside[kUpsilon], 10.0 + 0.5 * x, 1e-12);
+    EXPECT_EQ(beside[kY], 0.0);
+  }
+}
+
+TEST(InterpolateBeside, OutsideACornerIsOnTheExtensionOfTheLegBeforeIt) {
+  std::vector<State> corner(3, State::Zero());
+  corner[1][kX] = 4.0;
+  corner[2][kX] = 4.0;
+  corner[2][kY] = 4.0;
+  const State beside = InterpolateBeside({5.0, -1.0}, corner);
+  EXPECT_NEAR(beside[kY], 0.0, 1e-12);
+  EXPECT_NEAR(beside[kX], 5.0, 1e-12);
 }
 
 }  // namespace
