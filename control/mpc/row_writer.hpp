@@ -24,14 +24,23 @@ class RowWriter {
   RowWriter& operator=(const RowWriter&) = delete;
 
   // Removes all rows.
-  void Clear();
+  void Clear() {
+    for (auto& stage : qp_->stages) stage.ClearRows();
+    fits_ = true;
+  }
   // Add lo ≤ x[index] ≤ hi, lo ≤ u[index] ≤ hi, and lo ≤ Cᵀx + Dᵀu ≤ hi at stage constraint.step.
   void AddStateBound(const Constraint& constraint, int index, double lo, double hi,
-                     const Softness& softness = {});
+                     const Softness& softness = {}) {
+    Name(constraint, StageOf(constraint).AddStateBound(index, lo, hi, softness.rho, softness.sigma));
+  }
   void AddInputBound(const Constraint& constraint, int index, double lo, double hi,
-                     const Softness& softness = {});
+                     const Softness& softness = {}) {
+    Name(constraint, StageOf(constraint).AddInputBound(index, lo, hi, softness.rho, softness.sigma));
+  }
   void AddRow(const Constraint& constraint, const QpState& C, const Input& D, double lo, double hi,
-              const Softness& softness = {});
+              const Softness& softness = {}) {
+    Name(constraint, StageOf(constraint).AddRow(C, D, lo, hi, softness.rho, softness.sigma));
+  }
 
   // False if a stage lacked room for a row since Clear. The QP is then incomplete and must not be used.
   [[nodiscard]] bool fits() const { return fits_; }
@@ -40,7 +49,14 @@ class RowWriter {
   }
 
  private:
-  void Name(const Constraint& constraint, bool added);
+  [[nodiscard]] OcpQpStage<kStates + kInputs, kInputs>& StageOf(const Constraint& constraint) {
+    return qp_->stages[Index(constraint.step)];
+  }
+  void Name(const Constraint& constraint, bool added) {
+    fits_ &= added;
+    if (!added) return;
+    constraints_[Index(constraint.step)][Index(StageOf(constraint).row_count - 1)] = constraint;
+  }
 
   VehicleQp* qp_;
   std::vector<std::array<Constraint, kMaxRows>> constraints_;
