@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <ranges>
 #include <span>
 
 #include "control/road/route.hpp"
@@ -25,16 +27,7 @@ template <typename Distance>
 // The first sample with the least `distance` of first..last, all of which are compared.
 template <typename Distance>
 [[nodiscard]] int NearestOfAll(const Distance& distance, int first, int last) {
-  int nearest = first;
-  double least = distance(first);
-  for (int k = first + 1; k <= last; ++k) {
-    const double other = distance(k);
-    if (other < least) {
-      least = other;
-      nearest = k;
-    }
-  }
-  return nearest;
+  return *std::ranges::min_element(std::views::iota(first, last + 1), {}, distance);
 }
 
 // A position relative to a point of a path [m].
