@@ -20,7 +20,11 @@ using Input = Eigen::Matrix<double, kInputs, 1>;
 // Side on which an obstacle is passed, seen in driving direction (paper, assum_1).
 enum class PassingSide { kUnknown, kLeft, kRight };
 
-// Ellipse about (X, Y) with semi-axes r_x, r_y [m], the first along `heading` [rad]; velocity in the map [m/s].
+enum class ObstacleShape { kEllipse, kBox };
+enum class ObstacleClass { kUnknown, kStatic, kVehicle, kCycle, kPedestrian };
+
+// Ellipse or rectangle about (X, Y) with semi-axes or half sides r_x, r_y [m], the first along `heading` [rad]; velocity
+// in the map [m/s].
 struct Obstacle {
   int id = 0;
   double X = 0.0;
@@ -31,6 +35,8 @@ struct Obstacle {
   double velocity_X = 0.0;
   double velocity_Y = 0.0;
   PassingSide side = PassingSide::kUnknown;
+  ObstacleShape shape = ObstacleShape::kEllipse;
+  ObstacleClass object_class = ObstacleClass::kUnknown;
 };
 
 // Distances from the reference path to the road's edges [m]: the paper's R_2 (left, positive) and R_1 (right,
