@@ -52,11 +52,13 @@ template <>
 inline constexpr auto kFields<ObstacleShape> =
     Fields("ObstacleObject", Field{"ObjectId", &ObstacleShape::object_id},
            Field{"SemiAxisX", &ObstacleShape::semi_axis_x}, Field{"SemiAxisY", &ObstacleShape::semi_axis_y},
-           Field{"Heading", &ObstacleShape::heading}, Field{"PassingSide", &ObstacleShape::passing_side});
+           Field{"Heading", &ObstacleShape::heading}, Field{"PassingSide", &ObstacleShape::passing_side},
+           Field{"Shape", &ObstacleShape::outline});
 template <>
 inline constexpr auto kFields<ObstacleMotion> =
     Fields("ObstacleObject", Field{"ObjectId", &ObstacleMotion::object_id},
-           Field{"VelocityX", &ObstacleMotion::velocity_X}, Field{"VelocityY", &ObstacleMotion::velocity_Y});
+           Field{"VelocityX", &ObstacleMotion::velocity_X}, Field{"VelocityY", &ObstacleMotion::velocity_Y},
+           Field{"Class", &ObstacleMotion::object_class});
 template <>
 inline constexpr auto kFields<ObstacleList> = Fields("ObstacleList", Field{"Count", &ObstacleList::count});
 template <>
@@ -108,6 +110,13 @@ inline constexpr auto kFields<ConstraintReport> =
     Fields("ConstraintReport", Field{"Verdict", &ConstraintReport::verdict},
            Field{"Constraint", &ConstraintReport::constraint}, Field{"Index", &ConstraintReport::index},
            Field{"Step", &ConstraintReport::step}, Field{"Amount", &ConstraintReport::amount});
+template <>
+inline constexpr auto kFields<DisturbanceEstimate> =
+    Fields("DisturbanceEstimate", Field{"SteeringOffset", &DisturbanceEstimate::steering_offset},
+           Field{"LateralAcceleration", &DisturbanceEstimate::lateral_acceleration},
+           Field{"LongitudinalAcceleration", &DisturbanceEstimate::longitudinal_acceleration},
+           Field{"StiffnessFactor", &DisturbanceEstimate::stiffness_factor},
+           Field{"Grip", &DisturbanceEstimate::grip});
 
 // The last enumerator of each enumeration; all enumerations begin at 0 and have no gaps.
 inline constexpr ConstraintVerdict LastOf(ConstraintVerdict) {
@@ -118,6 +127,12 @@ inline constexpr ConstraintName LastOf(ConstraintName) {
 }
 inline constexpr PassingSide LastOf(PassingSide) {
   return PassingSide::kRight;
+}
+inline constexpr Outline LastOf(Outline) {
+  return Outline::kBox;
+}
+inline constexpr ObstacleClass LastOf(ObstacleClass) {
+  return ObstacleClass::kPedestrian;
 }
 inline constexpr Mode LastOf(Mode) {
   return Mode::kFault;

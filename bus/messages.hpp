@@ -25,28 +25,38 @@ struct VehicleFeedback {
 };
 
 enum class PassingSide : std::uint8_t { kUnknown = 0, kLeft = 1, kRight = 2 };
+enum class Outline : std::uint8_t { kEllipse = 0, kBox = 1 };
+enum class ObstacleClass : std::uint8_t {
+  kUnknown = 0,
+  kStatic = 1,
+  kVehicle = 2,
+  kCycle = 3,
+  kPedestrian = 4
+};
 
 // An obstacle is sent as three frames of the multiplexed message ObstacleObject, in this order.
 struct ObstaclePosition {
-  std::uint8_t object_id = 0;
-  double X = 0.0;  // centre in the map [m]
+  std::uint8_t object_id = 0;  // 0..63
+  double X = 0.0;              // centre in the map [m]
   double Y = 0.0;
 };
 struct ObstacleShape {
   std::uint8_t object_id = 0;
-  double semi_axis_x = 0.0;  // along the heading [m]
+  double semi_axis_x = 0.0;  // semi-axis of an ellipse, half side of a box, along the heading [m]
   double semi_axis_y = 0.0;
   double heading = 0.0;  // wrapped to [-π, π] [rad]
   PassingSide passing_side = PassingSide::kUnknown;
+  Outline outline = Outline::kEllipse;
 };
 struct ObstacleMotion {
   std::uint8_t object_id = 0;
   double velocity_X = 0.0;  // in the map [m/s]
   double velocity_Y = 0.0;
+  ObstacleClass object_class = ObstacleClass::kUnknown;
 };
 // Ends a cycle's obstacle frames: the objects sent since the previous list are all the obstacles.
 struct ObstacleList {
-  std::uint8_t count = 0;
+  std::uint8_t count = 0;  // 0..64
 };
 
 struct DriverRequest {
@@ -196,9 +206,18 @@ struct ConstraintReport {
   double amount = 0.0;     // in the unit of the constrained quantity
 };
 
-using Message =
-    std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape, ObstacleMotion,
-                 ObstacleList, DriverRequest, SteeringCommand, AccelerationCommand, ControllerStatus,
-                 SchedulingHealth, HorizonHeader, HorizonPoint, ControllerDiagnostics, ConstraintReport>;
+// What acts on the vehicle besides its inputs, as estimated.
+struct DisturbanceEstimate {
+  double steering_offset = 0.0;            // the front wheels stand at δ plus this [rad]
+  double lateral_acceleration = 0.0;       // by bank and side wind, left positive [m/s²]
+  double longitudinal_acceleration = 0.0;  // by slope and drag [m/s²]
+  double stiffness_factor = 1.0;           // of the cornering stiffness of all tyres
+  double grip = 0.0;                       // friction coefficient that plans count on
+};
+
+using Message = std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape,
+                             ObstacleMotion, ObstacleList, DriverRequest, SteeringCommand,
+                             AccelerationCommand, ControllerStatus, SchedulingHealth, HorizonHeader,
+                             HorizonPoint, ControllerDiagnostics, ConstraintReport, DisturbanceEstimate>;
 
 }  // namespace bus

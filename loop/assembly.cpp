@@ -20,7 +20,8 @@ std::unique_ptr<control::Controller> MakeController(const Config& config, const 
     case ControllerKind::kLpv:
     case ControllerKind::kLpvStandard:
       return std::make_unique<control::TimedController>(
-          std::make_unique<control::LpvMpc>(config.vehicle, config.mpc), road.reference, road.profile.road());
+          std::make_unique<control::LpvMpc>(config.vehicle, config.mpc), road.reference,
+          road.profile.edges());
     case ControllerKind::kNmpc:
     case ControllerKind::kNmpcAffine:
       break;
@@ -38,6 +39,16 @@ bus::VehicleBus OpenBus(const Config& config) {
   return bus::VehicleBus(dbc::Parse(config::ReadTextFile(config.dbc), config.dbc.string()));
 }
 
+namespace {
+
+LoopSettings LoopOf(const Config& config) {
+  LoopSettings settings = config.loop;
+  settings.mu = config.affine.mu;
+  return settings;
+}
+
+}  // namespace
+
 Assembly::Assembly(const Config& config, std::function<base::Time()> stopwatch)
     : Assembly(config, config::LoadRoute(config.route), std::move(stopwatch), MakeController) {}
 
@@ -45,7 +56,6 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route,
                    std::function<base::Time()> stopwatch, const ControllerMaker& make)
     : bus_(OpenBus(config)),
       reference_(control::SampleRoute(route.route, config.mpc.t_s), config.mpc.t_s),
-      road_(route.road),
       profile_(route.route, route.road, config.speed),
       controller_(make(config, {.reference = reference_, .profile = profile_})),
       check_({.vehicle = config.vehicle,
@@ -54,7 +64,7 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route,
               .t_s = config.affine.t_s},
              profile_),
       // The paper's controllers plan for a point mass with a coarser model: their plans would not pass the check.
-      loop_(config.loop, bus_, *controller_, reference_, road_, std::move(stopwatch),
+      loop_(LoopOf(config), bus_, *controller_, reference_, profile_.edges(), std::move(stopwatch),
             IsPapers(config.controller) ? nullptr : &check_) {
   if (reference_.size() <= HorizonOf(config)) {
     throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");

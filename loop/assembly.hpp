@@ -47,12 +47,10 @@ class Assembly {
   [[nodiscard]] ControlLoop& loop() { return loop_; }
   [[nodiscard]] const bus::VehicleBus& bus() const { return bus_; }
   [[nodiscard]] const control::TimeReference& reference() const { return reference_; }
-  [[nodiscard]] const control::RoadBounds& road() const { return road_; }
 
  private:
   bus::VehicleBus bus_;
   control::TimeReference reference_;
-  control::RoadBounds road_;
   control::RoadProfile profile_;
   std::unique_ptr<control::Controller> controller_;
   control::PlanCheck check_;

@@ -19,6 +19,7 @@ constexpr std::array kControllerNames{"lpv-affine", "lpv", "lpv-standard", "nmpc
 
 void DeriveFromController(Config& config) {
   config.mpc.trust_region = config.controller == ControllerKind::kLpv;
+  config.loop.offset_free = config.offset_free && !IsPapers(config.controller);
   // The paper's model divides by the speed, and its reference does not wait for a late vehicle.
   config.loop.engage_min_speed = config.engage_min_speed.value_or(IsPapers(config.controller) ? 3.0 : 0.0);
 }
@@ -36,6 +37,7 @@ void Derive(Config& config) {
   config.service.timeout = base::FromSeconds(config.timeout.value_or(1.5 * t_s));
   config.loop.modes.degraded_cycles = static_cast<int>(std::lround(config.degraded_time / t_s));
   config.loop.vehicle = config.vehicle;
+  config.loop.mu = config.affine.mu;
   config.mpc.t_s = config.affine.t_s = t_s;
 
   const safety::CommandLimits& limits = config.loop.limits;

@@ -46,6 +46,7 @@ struct Config {
   control::LpvMpcSettings mpc;        // settings of the paper's controllers
   control::LpvAffineSettings affine;  // settings of lpv-affine and nmpc-affine
   control::SpeedLimits speed;         // speed limits of lpv-affine and nmpc-affine
+  bool offset_free = true;  // of lpv-affine and nmpc-affine; the paper's controllers know no disturbance
   control::VehicleParameters vehicle;
   std::string log_level = "info";
   std::map<std::string, std::string> written;  // the file's keys and values, except overridden ones

@@ -25,6 +25,7 @@
 #include "can/frame.hpp"
 #include "control/mpc/controller.hpp"
 #include "control/mpc/plan_check.hpp"
+#include "control/road/road_edges.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
 #include "loop/command_source.hpp"
@@ -52,6 +53,8 @@ struct LoopSettings {
   double engage_max_heading_error = 0.5;  // relative to the route [rad], 0..π
   bool send_horizon = true;               // whether PlannedHorizon frames are sent
   base::Time command_delay{};             // time from a command to its effect
+  bool offset_free = false;               // whether disturbances are estimated and counted with
+  double mu = 0.7;                        // assumed friction coefficient of the road
 };
 
 class ControlLoop {
@@ -59,14 +62,14 @@ class ControlLoop {
   // `stopwatch` returns the time since an arbitrary start, for durations only. `bus`, `controller`, `reference` and
   // `check` must outlive the loop. Without a check (null) a plan is followed if its values are finite.
   ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bus, control::Controller& controller,
-              const control::TimeReference& reference, const control::RoadBounds& road,
-              std::function<base::Time()> stopwatch, const control::PlanCheck* check = nullptr);
+              const control::TimeReference& reference, const control::RoadEdges& edges,
+              std::function<base::Time()> stopwatch, control::PlanCheck* check = nullptr);
 
   // Processes a frame. True: a state set is complete and a cycle is due.
   [[nodiscard]] bool Receive(const can::Frame& frame, base::Time now);
 
   // Runs one control cycle and returns the frames to send, in this order: both commands, status, scheduling health,
-  // diagnostics, constraint, and with a new plan its horizon. They belong to the loop and are valid until the next
+  // diagnostics, constraint, disturbance, and with a new plan its horizon. They belong to the loop and are valid until the next
   // call. A state that has waited longer than the deadline, before the cycle or while its plan was made, is not
   // answered: the active plan continues at the step that is due by then.
   [[nodiscard]] std::span<const can::Frame> Cycle(base::Time now, Trigger trigger);

@@ -24,7 +24,7 @@ ConfigKey Width() {
 ConfigTable ControllerTable() {
   return {
       "controller",
-      "All keys but _kind_ are settings of the paper's controllers.",
+      "All keys but _kind_ and _offset_free_ are settings of the paper's controllers.",
       {
           ChoiceKey(
               "kind", ControllerNames(),
@@ -34,6 +34,10 @@ ConfigTable ControllerTable() {
               "trust "
               "region, and _lpv-standard_, without it. The nonlinear controllers _nmpc_ (the paper's) and "
               "_nmpc-affine_ (the problem of lpv-affine) are for *lpvmpc*(1) alone; the daemon refuses them"),
+          Key(
+              "offset_free", [](Config& c) { return &c.offset_free; }, {},
+              "Whether _lpv-affine_ and _nmpc-affine_ estimate steering offset, bank, wind, slope and tyre "
+              "stiffness from the measured states and counter them, so that they leave no lasting error"),
           Key(
               "horizon", [](Config& c) { return &c.mpc.horizon; }, {2, 100, ""},
               "Number of steps of the horizon, N"),

@@ -7,6 +7,7 @@
 #include "base/time.hpp"
 #include "bus/messages.hpp"
 #include "control/mpc/constraint.hpp"
+#include "control/vehicle/disturbance.hpp"
 #include "control/vehicle/types.hpp"
 #include "safety/faulty_message.hpp"
 #include "safety/mode_machine.hpp"
@@ -29,7 +30,9 @@ struct CycleReport {
   [[nodiscard]] const std::optional<control::ConstraintViolation>& unmet() const {
     return rejection ? rejection : relaxation;
   }
-  bool engagement_refused = false;  // the driver's request of this cycle was not granted
+  control::Disturbance disturbance = {};  // as estimated from the states
+  double mu = 0.0;                        // friction coefficient that plans count on
+  bool engagement_refused = false;        // the driver's request of this cycle was not granted
   std::optional<safety::FaultyMessage> faulty_message = std::nullopt;
   base::Time countdown = base::Time::max();  // time until the stop if nothing changes; max: not driving
   int plan_age = -1;                         // cycles; -1 without a plan or with commands disabled

@@ -8,7 +8,7 @@
 
 namespace loop {
 
-std::optional<int> FindOnRoute(const control::TimeReference& reference, const control::RoadBounds& road,
+std::optional<int> FindOnRoute(const control::TimeReference& reference, const control::RoadEdges& edges,
                                const control::State& z, double max_heading_error) {
   using control::Position;
   const int last = reference.size() - 1;
@@ -23,6 +23,7 @@ std::optional<int> FindOnRoute(const control::TimeReference& reference, const co
     const auto [ahead, left] = control::OffsetFrom(Position(r), r[control::kPsi], p);
     const int neighbour = k < last ? k + 1 : k - 1;
     const double spacing = (Position(reference[neighbour]) - Position(r)).norm();
+    const control::RoadBounds road = edges.At(reference.ArcLength(k) + ahead);
     if (std::abs(ahead) <= spacing && left <= road.left && left >= road.right &&
         std::abs(control::WrapAngle(z[control::kPsi] - r[control::kPsi])) <= max_heading_error) {
       return k;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "control/road/road_edges.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/types.hpp"
 
@@ -13,7 +14,7 @@ namespace loop {
 // differs by at most `max_heading_error` [rad]. nullopt if there is none. The first one is taken so that a circuit
 // begins with its first lap.
 [[nodiscard]] std::optional<int> FindOnRoute(const control::TimeReference& reference,
-                                             const control::RoadBounds& road, const control::State& z,
+                                             const control::RoadEdges& edges, const control::State& z,
                                              double max_heading_error);
 
 }  // namespace loop

@@ -26,6 +26,26 @@ control::PassingSide ToControl(bus::PassingSide side) {
 
 }  // namespace
 
+control::ObstacleShape ToControl(bus::Outline outline) {
+  return outline == bus::Outline::kBox ? control::ObstacleShape::kBox : control::ObstacleShape::kEllipse;
+}
+
+control::ObstacleClass ToControl(bus::ObstacleClass object_class) {
+  switch (object_class) {
+    case bus::ObstacleClass::kStatic:
+      return control::ObstacleClass::kStatic;
+    case bus::ObstacleClass::kVehicle:
+      return control::ObstacleClass::kVehicle;
+    case bus::ObstacleClass::kCycle:
+      return control::ObstacleClass::kCycle;
+    case bus::ObstacleClass::kPedestrian:
+      return control::ObstacleClass::kPedestrian;
+    case bus::ObstacleClass::kUnknown:
+      break;
+  }
+  return control::ObstacleClass::kUnknown;
+}
+
 ObstacleAssembler::ObstacleAssembler() {
   pending_.reserve(kMaxObstacles);
   committed_.reserve(kMaxObstacles);
@@ -42,10 +62,10 @@ void ObstacleAssembler::Update(const bus::ObstaclePosition& position) {
 }
 
 void ObstacleAssembler::Update(const bus::ObstacleShape& shape) {
-  const bool ellipse = shape.semi_axis_x > 0.0 && shape.semi_axis_y > 0.0 &&
-                       std::isfinite(shape.semi_axis_x) && std::isfinite(shape.semi_axis_y) &&
-                       std::isfinite(shape.heading);
-  if (!ellipse) {
+  const bool extended = shape.semi_axis_x > 0.0 && shape.semi_axis_y > 0.0 &&
+                        std::isfinite(shape.semi_axis_x) && std::isfinite(shape.semi_axis_y) &&
+                        std::isfinite(shape.heading);
+  if (!extended) {
     return;
   }
   if (control::Obstacle* obstacle = Part(shape.object_id, kShape)) {
@@ -53,6 +73,7 @@ void ObstacleAssembler::Update(const bus::ObstacleShape& shape) {
     obstacle->r_y = shape.semi_axis_y;
     obstacle->heading = shape.heading;
     obstacle->side = ToControl(shape.passing_side);
+    obstacle->shape = ToControl(shape.outline);
   }
 }
 
@@ -63,6 +84,7 @@ void ObstacleAssembler::Update(const bus::ObstacleMotion& motion) {
   if (control::Obstacle* obstacle = Part(motion.object_id, kMotion)) {
     obstacle->velocity_X = motion.velocity_X;
     obstacle->velocity_Y = motion.velocity_Y;
+    obstacle->object_class = ToControl(motion.object_class);
   }
 }
 

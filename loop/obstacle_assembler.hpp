@@ -13,13 +13,17 @@
 
 namespace loop {
 
+[[nodiscard]] control::ObstacleShape ToControl(bus::Outline outline);
+[[nodiscard]] control::ObstacleClass ToControl(bus::ObstacleClass object_class);
+
 class ObstacleAssembler {
  public:
   static constexpr std::size_t kMaxObstacles = 64;
 
   ObstacleAssembler();
 
-  // A part with a non-finite value or a semi-axis that is not positive is ignored: its object remains incomplete.
+  // A part with a non-finite value, a semi-axis or a half side that is not positive is ignored: its object remains
+  // incomplete.
   void Update(const bus::ObstaclePosition& position);
   void Update(const bus::ObstacleShape& shape);
   void Update(const bus::ObstacleMotion& motion);

@@ -36,12 +36,11 @@ bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
   return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
 }
 
-CheckVerdict CheckPlan(const control::PlanCheck& check, const control::State& z, double s,
-                       std::span<const control::Input> plan, std::span<const control::Input> last,
-                       std::span<const control::Obstacle> obstacles) {
-  CheckVerdict verdict{.violation = check.Validate(z, s, plan, obstacles), .ruled_out = false};
+CheckVerdict CheckPlan(const control::PlanCheck& check, std::span<const control::Input> plan,
+                       std::span<const control::Input> last) {
+  CheckVerdict verdict{.violation = check.Validate(plan), .ruled_out = false};
   if (!verdict.violation) return verdict;
-  const auto of_last = check.Validate(z, s, last, obstacles);
+  const auto of_last = check.Validate(last);
   verdict.ruled_out = !of_last || of_last->constraint.step > verdict.violation->constraint.step;
   return verdict;
 }

@@ -22,16 +22,14 @@ struct SolverOutcome {
 // kNone if it may be followed.
 [[nodiscard]] bus::FaultCode Refusal(const control::Plan& plan, int horizon);
 
-// The first violation of a plan from `z` among `obstacles`, and whether it rules the plan out. It does not if the last
+// The first violation of a plan from the start that `check` was given, and whether it rules the plan out. It does not if the last
 // plan would fail no later: then the new plan, made from newer data, is the lesser evil. `last`: the inputs of the last
 // plan from now on; empty if there is none, in which case any violation rules out the new plan.
 struct CheckVerdict {
   std::optional<control::ConstraintViolation> violation;
   bool ruled_out = false;
 };
-[[nodiscard]] CheckVerdict CheckPlan(const control::PlanCheck& check, const control::State& z, double s,
-                                     std::span<const control::Input> plan,
-                                     std::span<const control::Input> last,
-                                     std::span<const control::Obstacle> obstacles);
+[[nodiscard]] CheckVerdict CheckPlan(const control::PlanCheck& check, std::span<const control::Input> plan,
+                                     std::span<const control::Input> last);
 
 }  // namespace loop

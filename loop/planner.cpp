@@ -23,7 +23,7 @@ std::optional<safety::Cause> FaultOf(const Outcome& outcome, bool state_new) {
 }  // namespace
 
 Planner::Planner(const PlannerSettings& settings, control::Controller& controller,
-                 std::function<base::Time()> stopwatch, const control::PlanCheck* check)
+                 std::function<base::Time()> stopwatch, control::PlanCheck* check)
     : settings_(settings),
       controller_(&controller),
       stopwatch_(std::move(stopwatch)),
@@ -31,6 +31,8 @@ Planner::Planner(const PlannerSettings& settings, control::Controller& controlle
       time_left_([this] { return stopwatch_() - start_ < settings_.deadline / kShareForIterations; }),
       delay_(settings.vehicle, base::ToSeconds(settings.period), base::ToSeconds(settings.command_delay)),
       active_(controller.horizon()) {
+  if (settings.offset_free)
+    estimator_.emplace(settings.vehicle, control::EstimatorSettings{.mu = settings.mu});
   obstacles_.reserve(ObstacleAssembler::kMaxObstacles);
 }
 
@@ -41,6 +43,7 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   } else {
     delay_.Reset(applied);
   }
+  Estimate(known);
   Outcome outcome;
   Prediction prediction{.z = control::State::Zero(), .obstacles = {}};
   if (request == PlanRequest::kFirst) {
@@ -53,6 +56,8 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
                                            .u_previous = applied,
                                            .place = place,
                                            .obstacles = prediction.obstacles,
+                                           .disturbance = disturbance(),
+                                           .mu_limit = mu_limit(),
                                            .time_left = &time_left_});
     outcome.relaxation = Unmet(*outcome.solution);
   }
@@ -69,13 +74,21 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   return outcome;
 }
 
+// States follow each other by their counters, not by their time stamps, which the bus delays.
+void Planner::Estimate(const Snapshot& known) {
+  if (!estimator_ || !known.state_new) return;
+  const base::Time since = (known.step - estimated_step_) * settings_.period;
+  estimator_->Update(known.state.z, known.state.feedback, base::ToSeconds(since));
+  estimated_step_ = known.step;
+}
+
 Planner::Prediction Planner::Predict(const Snapshot& known) {
   obstacles_.assign(known.obstacles.begin(), known.obstacles.end());
   for (control::Obstacle& obstacle : obstacles_) {
     obstacle = control::Predict(obstacle, base::ToSeconds(known.obstacle_age) + delay_.delay());
   }
   const double age = base::ToSeconds(known.now - known.state.timestamp);
-  return {.z = delay_.Predict(known.state.z, age), .obstacles = obstacles_};
+  return {.z = delay_.Predict(known.state.z, age, disturbance()), .obstacles = obstacles_};
 }
 
 std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& plan) const {
@@ -90,8 +103,8 @@ void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, co
   bus::FaultCode refusal =
       outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
   if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
-    const CheckVerdict verdict =
-        CheckPlan(*check_, prediction.z, place.s, plan.u, active_.From(known.step), prediction.obstacles);
+    check_->Begin(prediction.z, place.s, prediction.obstacles, disturbance(), mu_limit());
+    const CheckVerdict verdict = CheckPlan(*check_, plan.u, active_.From(known.step));
     outcome.rejection = verdict.violation;
     if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
   }

@@ -1,8 +1,9 @@
 // Makes the plan of a cycle and keeps the active plan: state and obstacles are predicted to the time when the command
-// acts, and the controller solves. A plan that is late, unsolved or ruled out by the check does not replace the active
-// plan.
+// acts, with the disturbances that the measured states show, and the controller solves. A plan that is late, unsolved
+// or ruled out by the check does not replace the active plan.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "base/time.hpp"
 #include "bus/messages.hpp"
+#include "control/estimation/disturbance_estimator.hpp"
 #include "control/mpc/constraint.hpp"
 #include "control/mpc/controller.hpp"
 #include "control/mpc/plan_check.hpp"
@@ -28,6 +30,8 @@ struct PlannerSettings {
   base::Time deadline{};       // age of a state beyond which an answer to it is late
   base::Time command_delay{};  // time from a command to its effect
   control::VehicleParameters vehicle;
+  bool offset_free = false;  // whether disturbances are estimated and counted with
+  double mu = 0.7;           // assumed friction coefficient of the road
 };
 
 // The request to the planner in a cycle.
@@ -56,7 +60,7 @@ class Planner {
   // `stopwatch` returns the time since an arbitrary start, for durations only. `controller` and `check` must outlive
   // the planner. Without a check (null) a plan is accepted if its values are finite.
   Planner(const PlannerSettings& settings, control::Controller& controller,
-          std::function<base::Time()> stopwatch, const control::PlanCheck* check);
+          std::function<base::Time()> stopwatch, control::PlanCheck* check);
 
   Planner(const Planner&) = delete;  // time_left_ points to this object
   Planner& operator=(const Planner&) = delete;
@@ -75,6 +79,14 @@ class Planner {
   void Forget() { active_.Clear(); }
 
   [[nodiscard]] const ActivePlan& active() const { return active_; }
+  // The disturbance as estimated from the measured states, while commands are disabled too; none if not offset-free.
+  [[nodiscard]] control::Disturbance disturbance() const {
+    return estimator_ ? estimator_->disturbance() : control::Disturbance{};
+  }
+  // Bound of the friction coefficient that the tyres have shown; none if not offset-free.
+  [[nodiscard]] double mu_limit() const { return estimator_ ? estimator_->mu_limit() : control::kNoLimit; }
+  // Friction coefficient that plans count on.
+  [[nodiscard]] double mu() const { return std::min(settings_.mu, mu_limit()); }
   // Number of plans refused since the start, and the reason of the last refusal.
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
   [[nodiscard]] bus::FaultCode last_refusal() const { return last_refusal_; }
@@ -85,6 +97,7 @@ class Planner {
     control::State z;
     std::span<const control::Obstacle> obstacles;
   };
+  void Estimate(const Snapshot& known);
   [[nodiscard]] Prediction Predict(const Snapshot& known);
   [[nodiscard]] std::optional<control::ConstraintViolation> Unmet(const control::Plan& plan) const;
   void Accept(const Snapshot& known, const control::RoutePlace& place, const Prediction& prediction,
@@ -93,10 +106,12 @@ class Planner {
   PlannerSettings settings_;
   control::Controller* controller_;
   std::function<base::Time()> stopwatch_;
-  const control::PlanCheck* check_;
+  control::PlanCheck* check_;
   std::function<bool()> time_left_;  // whether another iteration may begin
 
   control::DelayCompensator delay_;
+  std::optional<control::DisturbanceEstimator> estimator_;
+  std::int64_t estimated_step_ = 0;  // step of the last state that the estimator took
   ActivePlan active_;
   std::uint64_t refused_ = 0;
   bus::FaultCode last_refusal_ = bus::FaultCode::kNone;

@@ -95,11 +95,22 @@ void AppendConstraint(const CycleReport& report, safety::CommandGate& gate, std:
                         : relaxed ? bus::ConstraintVerdict::kRelaxed
                                   : bus::ConstraintVerdict::kUnsolved,
              .constraint = NameOf(violation->constraint.kind),
-             .index = code(violation->constraint.index, 15),
+             .index = code(violation->constraint.index, 63),
              .step = code(violation->constraint.step, 127),
              .amount = violation->amount};
   }
   Append(unmet, gate, frames);
+}
+
+void AppendDisturbance(const CycleReport& report, safety::CommandGate& gate,
+                       std::vector<can::Frame>& frames) {
+  const control::Disturbance& disturbance = report.disturbance;
+  Append(bus::DisturbanceEstimate{.steering_offset = disturbance.delta_0,
+                                  .lateral_acceleration = disturbance.a_y,
+                                  .longitudinal_acceleration = disturbance.a_x,
+                                  .stiffness_factor = disturbance.stiffness_factor,
+                                  .grip = report.mu},
+         gate, frames);
 }
 
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, base::Time period,

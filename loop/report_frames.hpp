@@ -25,6 +25,9 @@ void AppendDiagnostics(const CycleReport& report, const safety::ModeState& mode,
 // ConstraintReport: the violation found by the check, otherwise the constraint that the plan could not meet.
 void AppendConstraint(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames);
 
+// DisturbanceEstimate.
+void AppendDisturbance(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames);
+
 // PlannedHorizon: header and points of a plan made for the state with this counter. At most 127 points, the largest
 // number that the message can carry.
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, base::Time period,

@@ -41,6 +41,8 @@ void Reports::Write(const CycleResult& result, const Planner& planner) {
              .plan_accepted = outcome.accepted,
              .relaxation = outcome.relaxation,
              .rejection = outcome.rejection,
+             .disturbance = planner.disturbance(),
+             .mu = planner.mu(),
              .engagement_refused = EngagementRefused(result),
              .faulty_message = result.known.faulty_message,
              .countdown = Countdown(result),
@@ -78,6 +80,7 @@ void Reports::AppendFrames(const CycleResult& result, bool send_horizon, safety:
   AppendHealth(result.outcome.solution, gate, frames);
   AppendDiagnostics(report_, result.mode, gate, frames);
   AppendConstraint(report_, gate, frames);
+  AppendDisturbance(report_, gate, frames);
   if (send_horizon && result.outcome.accepted) {
     AppendHorizon(*result.outcome.solution, result.known.state.counter, period_, gate, frames);
   }

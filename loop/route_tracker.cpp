@@ -5,10 +5,10 @@
 namespace loop {
 
 RouteTracker::RouteTracker(const RouteTrackerSettings& settings, const control::TimeReference& reference,
-                           const control::RoadBounds& road)
+                           const control::RoadEdges& edges)
     : settings_(settings),
       reference_(&reference),
-      road_(road),
+      edges_(edges),
       odometer_(settings.vehicle, settings.t_s, reference) {}
 
 void RouteTracker::Reconfigure(double max_heading_error, double standstill_speed) {
@@ -23,7 +23,7 @@ control::RoutePlace RouteTracker::Advance(const Snapshot& known, bool commanding
     place.nearest = odometer_.motion().nearest;
     odometer_.Advance(known.state_new && known.state_fresh ? &known.state.z : nullptr, applied);
   } else if (known.state_fresh) {
-    const auto found = FindOnRoute(*reference_, road_, known.state.z, settings_.max_heading_error);
+    const auto found = FindOnRoute(*reference_, edges_, known.state.z, settings_.max_heading_error);
     place.on_route = found.has_value();
     place.nearest = found.value_or(0);
     start_step_ = known.step - place.nearest;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "control/road/odometer.hpp"
+#include "control/road/road_edges.hpp"
 #include "control/road/route_place.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/types.hpp"
@@ -23,7 +24,7 @@ class RouteTracker {
  public:
   // `reference` must outlive the tracker.
   RouteTracker(const RouteTrackerSettings& settings, const control::TimeReference& reference,
-               const control::RoadBounds& road);
+               const control::RoadEdges& edges);
 
   // Must be called once per cycle. `commanding`: commands are enabled; the vehicle then counts as on the route, beside
   // the sample of the previous cycle. `applied`: the last command.
@@ -40,7 +41,7 @@ class RouteTracker {
 
   RouteTrackerSettings settings_;
   const control::TimeReference* reference_;
-  control::RoadBounds road_;
+  control::RoadEdges edges_;
   control::Odometer odometer_;
   std::int64_t start_step_ = 0;  // sample k of the reference is due at step start_step_ + k
 };

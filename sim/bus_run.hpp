@@ -13,6 +13,7 @@
 
 #include "bus/vehicle_bus.hpp"
 #include "can/socket.hpp"
+#include "sim/recorder.hpp"
 #include "sim/scenario.hpp"
 #include "sim/summary.hpp"
 #include "sim/virtual_vehicle.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "control/vehicle/rectangle.hpp"
 #include "sim/ellipse_distance.hpp"
 
 namespace sim {
@@ -21,10 +22,8 @@ Vector2d NearestOfSegment(const Vector2d& from, const Vector2d& to) {
   return from + std::clamp(-from.dot(along) / squared, 0.0, 1.0) * along;
 }
 
-}  // namespace
-
-double FootprintDistance(const control::Obstacle& obstacle, const control::Footprint& footprint,
-                         const Eigen::Vector2d& position, double heading) {
+double EllipseToFootprint(const control::Obstacle& obstacle, const control::Footprint& footprint,
+                          const Vector2d& position, double heading) {
   // The corners are transformed to the ellipse's frame and stay in clockwise order.
   const Eigen::Rotation2Dd to_ellipse(-obstacle.heading);
   const Eigen::Rotation2Dd turn(heading - obstacle.heading);
@@ -65,6 +64,17 @@ double FootprintDistance(const control::Obstacle& obstacle, const control::Footp
   if (deepest.squaredNorm() >= 1.0) return distance;
   const Vector2d point = deepest.cwiseProduct(radii);
   return EllipseDistance(centred, point.x(), point.y());
+}
+
+}  // namespace
+
+double FootprintDistance(const control::Obstacle& obstacle, const control::Footprint& footprint,
+                         const Vector2d& position, double heading) {
+  if (obstacle.shape == control::ObstacleShape::kEllipse)
+    return EllipseToFootprint(obstacle, footprint, position, heading);
+  const control::Rectangle box = RectangleOf(obstacle), vehicle = RectangleOf(footprint, position, heading);
+  const double overlap = Overlap(box, vehicle);
+  return overlap > 0.0 ? -overlap : Distance(box, vehicle);
 }
 
 }  // namespace sim

@@ -34,6 +34,18 @@ Plant::Plant(const PlantParameters& parameters, const State& initial)
   hubs_[kRearRight] = {-v.l_r, -0.5 * parameters_.track_rear};
 }
 
+double Plant::WheelAngle(const Input& u) const {
+  return u[control::kDelta] + parameters_.steering_offset;
+}
+
+// The acceleration by gravity and wind, in the body frame [m/s²].
+Eigen::Vector2d Plant::Pull() const {
+  const Wind& wind = parameters_.wind;
+  const bool blows = time_ >= wind.from && time_ < wind.until;
+  return {-kGravity * std::sin(parameters_.slope),
+          kGravity * std::sin(parameters_.bank) + (blows ? wind.lateral_acceleration : 0.0)};
+}
+
 std::array<double, kWheels> Plant::Loads(const State& z, const Input& u) const {
   const control::VehicleParameters& v = parameters_.vehicle;
   const double wheelbase = v.l_f + v.l_r;
@@ -56,8 +68,8 @@ std::array<WheelForces, kWheels> Plant::Forces(const State& z, const Input& u) c
   const control::VehicleParameters& v = parameters_.vehicle;
   const std::array<double, kWheels> loads = Loads(z, u);
   const double force_per_load = u[control::kAcceleration] / kGravity;
-  const double cos_delta = std::cos(u[control::kDelta]);
-  const double sin_delta = std::sin(u[control::kDelta]);
+  const double cos_delta = std::cos(WheelAngle(u));
+  const double sin_delta = std::sin(WheelAngle(u));
   std::array<WheelForces, kWheels> forces;
   for (std::size_t i = 0; i < kWheels; ++i) {
     const bool front = i < kRearLeft;
@@ -86,8 +98,8 @@ std::array<WheelForces, kWheels> Plant::Forces(const State& z, const Input& u) c
 
 State Plant::Derivative(const State& z, const Input& u) const {
   const control::VehicleParameters& v = parameters_.vehicle;
-  const double cos_delta = std::cos(u[control::kDelta]);
-  const double sin_delta = std::sin(u[control::kDelta]);
+  const double cos_delta = std::cos(WheelAngle(u));
+  const double sin_delta = std::sin(WheelAngle(u));
   const std::array<WheelForces, kWheels> forces = Forces(z, u);
   double force_x = 0.0;
   double force_y = 0.0;
@@ -110,6 +122,9 @@ State Plant::Derivative(const State& z, const Input& u) const {
   derivative[control::kNu] = -z[control::kOmega] * z[control::kUpsilon] + force_y / v.m;
   derivative[control::kPsi] = z[control::kOmega];
   derivative[control::kOmega] = moment / v.I_z;
+  const Eigen::Vector2d pull = Pull();
+  derivative[control::kUpsilon] += pull.x();
+  derivative[control::kNu] += pull.y();
   return derivative;
 }
 
@@ -119,6 +134,7 @@ void Plant::Step(const Input& start, const Input& middle, const Input& end, doub
   const State k3 = Derivative(state_ + 0.5 * h * k2, middle);
   const State k4 = Derivative(state_ + h * k3, end);
   state_ += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  time_ += h;
 }
 
 }  // namespace sim

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "sim/summary.hpp"
+#include "sim/recorder.hpp"
 #include "sim/virtual_vehicle.hpp"
 
 namespace sim {

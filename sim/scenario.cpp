@@ -9,6 +9,7 @@
 #include "config/route_file.hpp"
 #include "config/toml_table.hpp"
 #include "control/road/projection.hpp"
+#include "sim/motion_table.hpp"
 
 namespace sim {
 namespace {
@@ -18,21 +19,28 @@ using config::TomlTable;
 
 constexpr Range<double> kMapX{kMapMinX, kMapMaxX};
 constexpr Range<double> kMapY{kMapMinY, kMapMaxY};
-constexpr Range<double> kLateral{-50.0, 50.0};   // [m]
-constexpr Range<double> kHeading{-6.3, 6.3};     // [rad]
-constexpr Range<double> kSemiAxis{0.05, 10.0};   // within the range of ObstacleObject [m]
-constexpr Range<double> kVelocity{-60.0, 60.0};  // within the range of ObstacleObject [m/s]
+constexpr Range<double> kSemiAxis{0.05, 20.0};  // within the range of ObstacleObject [m]
 constexpr Range<double> kFactor{0.2, 5.0};
-constexpr Range<double> kTime{0.0, 1e5};       // [s]
-constexpr Range<double> kOverhang{0.0, 20.0};  // [m]
-constexpr Range<double> kWidth{0.0, 10.0};     // [m]
-constexpr Range<int> kObjectId{0, 15};
+constexpr Range<double> kOverhang{0.0, 20.0};     // [m]
+constexpr Range<double> kWidth{0.0, 10.0};        // [m]
+constexpr Range<double> kInclination{-0.3, 0.3};  // of the road [rad]
+constexpr Range<int> kObjectId{0, 63};            // of ObstacleObject
 
 const std::array<std::string_view, 2> kByMap{"X", "Y"};
 
 // Names in the order of control::PassingSide.
 std::vector<std::string> SideNames() {
   return {"unknown", "left", "right"};
+}
+
+// Names in the order of control::ObstacleShape.
+std::vector<std::string> ShapeNames() {
+  return {"ellipse", "box"};
+}
+
+// Names in the order of control::ObstacleClass.
+std::vector<std::string> ClassNames() {
+  return {"unknown", "static", "vehicle", "cycle", "pedestrian"};
 }
 
 void PlaceInMap(const TomlTable& table, control::Obstacle& obstacle) {
@@ -46,7 +54,7 @@ void PlaceOnRoute(const TomlTable& table, const control::Route& route, control::
     if (table.Has(key)) throw table.Error(key, "must not be given along with s");
   }
   const control::RoutePoint point = route.At(table.Number("s", {0.0, route.length()}, "m"));
-  const double lateral = table.NumberOr("lateral", 0.0, kLateral, "m");
+  const double lateral = table.NumberOr("lateral", 0.0, kObstacleLateral, "m");
   const Eigen::Vector2d centre = control::Beside(point, lateral);
   obstacle.X = centre.x();
   obstacle.Y = centre.y();
@@ -65,10 +73,12 @@ control::Obstacle ReadObstacle(const TomlTable& table, const control::Route& rou
   obstacle.id = table.Integer("id", kObjectId);
   obstacle.r_x = table.Number("r_x", kSemiAxis, "m");
   obstacle.r_y = table.Number("r_y", kSemiAxis, "m");
-  obstacle.heading = control::WrapAngle(table.NumberOr("heading", 0.0, kHeading, "rad"));
-  obstacle.velocity_X = table.NumberOr("velocity_X", 0.0, kVelocity, "m/s");
-  obstacle.velocity_Y = table.NumberOr("velocity_Y", 0.0, kVelocity, "m/s");
+  obstacle.heading = control::WrapAngle(table.NumberOr("heading", 0.0, kObstacleHeading, "rad"));
+  obstacle.velocity_X = table.NumberOr("velocity_X", 0.0, kObstacleSpeed, "m/s");
+  obstacle.velocity_Y = table.NumberOr("velocity_Y", 0.0, kObstacleSpeed, "m/s");
   obstacle.side = static_cast<control::PassingSide>(table.ChoiceOr("side", 0, SideNames()));
+  obstacle.shape = static_cast<control::ObstacleShape>(table.ChoiceOr("shape", 0, ShapeNames()));
+  obstacle.object_class = static_cast<control::ObstacleClass>(table.ChoiceOr("class", 0, ClassNames()));
   if (table.Has("s")) {
     PlaceOnRoute(table, route, obstacle);
   } else {
@@ -77,20 +87,48 @@ control::Obstacle ReadObstacle(const TomlTable& table, const control::Route& rou
   return obstacle;
 }
 
+// The obstacle starts as its motion says.
+void ReadMotion(const TomlTable& table, control::Obstacle& obstacle, Scenario& scenario) {
+  const auto motion = ReadRouteMotion(table, scenario.route);
+  if (!motion) return;
+  obstacle = OnRoute(obstacle, scenario.route, motion->heading, StateAt(*motion, 0.0));
+  scenario.motions.emplace(obstacle.id, *motion);
+}
+
+void ReadPresence(const TomlTable& table, int id, Scenario& scenario) {
+  const double appears = table.NumberOr("appears_at", 0.0, kScenarioTime, "s");
+  if (table.Has("appears_at")) scenario.appears_at[id] = appears;
+  if (!table.Has("disappears_at")) return;
+  scenario.disappears_at[id] = table.Number("disappears_at", kScenarioTime, "s");
+  if (scenario.disappears_at[id] <= appears)
+    throw table.Error("disappears_at", fmt::format("must be later than {} s, when it appears", appears));
+}
+
 void ReadObstacles(const TomlTable& file, Scenario& scenario) {
   std::vector<control::Obstacle>& obstacles = scenario.obstacles;
   std::set<int> ids;
   for (const TomlTable& table : file.Tables("obstacle")) {
     obstacles.push_back(ReadObstacle(table, scenario.route));
-    if (table.Has("appears_at")) {
-      scenario.appears_at[obstacles.back().id] = table.Number("appears_at", kTime, "s");
-    }
+    ReadMotion(table, obstacles.back(), scenario);
+    ReadPresence(table, obstacles.back().id, scenario);
     if (!ids.insert(obstacles.back().id).second)
       throw table.Error("id", "is already used by another obstacle");
-    if (obstacles.size() > static_cast<std::size_t>(kObjectId.max)) {  // all that ObstacleList can count
-      throw table.Error("id", fmt::format("is one obstacle more than {}", kObjectId.max));
-    }
   }
+}
+
+Wind ReadWind(const TomlTable& table) {
+  const Wind wind{.from = table.Number("from", kScenarioTime, "s"),
+                  .until = table.Number("until", kScenarioTime, "s"),
+                  .lateral_acceleration = table.Number("lateral_acceleration", {-5.0, 5.0}, "m/s^2")};
+  if (wind.until <= wind.from) throw table.Error("until", "must be later than from");
+  return wind;
+}
+
+void ReadDisturbances(const TomlTable& table, PlantParameters& plant) {
+  plant.steering_offset = table.NumberOr("steering_offset", 0.0, {-0.1, 0.1}, "rad");
+  plant.bank = table.NumberOr("bank", 0.0, kInclination, "rad");
+  plant.slope = table.NumberOr("slope", 0.0, kInclination, "rad");
+  if (table.Has("wind")) plant.wind = ReadWind(table.Table("wind"));
 }
 
 void ReadVehicle(const TomlTable& table, Scenario& scenario) {
@@ -102,6 +140,7 @@ void ReadVehicle(const TomlTable& table, Scenario& scenario) {
   vehicle.C_alpha_r *= table.NumberOr("rear_stiffness_factor", 1.0, kFactor);
   scenario.plant.tyre = static_cast<Tyre>(table.ChoiceOr("tyre", 0, {"linear", "saturating"}));
   scenario.plant.mu = table.NumberOr("mu", scenario.plant.mu, {0.05, 2.0});
+  ReadDisturbances(table, scenario.plant);
   scenario.footprint = {.front = table.NumberOr("front", 0.0, kOverhang, "m"),
                         .rear = table.NumberOr("rear", 0.0, kOverhang, "m"),
                         .half_width = 0.5 * table.NumberOr("width", 0.0, kWidth, "m")};
@@ -127,7 +166,7 @@ SensorParameters ReadSensors(const TomlTable& table) {
 DriverPlan ReadDriver(const TomlTable& table) {
   const auto time = [&table](const char* key) -> std::optional<double> {
     if (!table.Has(key)) return std::nullopt;
-    return table.Number(key, kTime, "s");
+    return table.Number(key, kScenarioTime, "s");
   };
   return {.engage_at = time("engage_at").value_or(0.0),
           .disengage_at = time("disengage_at"),
@@ -140,6 +179,10 @@ Expectations ReadExpectations(const TomlTable& table) {
     if (!table.Has(key)) return std::nullopt;
     return table.Number(key, {-1e3, 1e3}, "m");
   };
+  const auto limit = [&table](const char* key, const char* unit) -> std::optional<double> {
+    if (!table.Has(key)) return std::nullopt;
+    return table.Number(key, {0.0, 1e3}, unit);
+  };
   const auto count = [&table](const char* key) -> std::optional<int> {
     if (!table.Has(key)) return std::nullopt;
     return table.Integer(key, {0, 1'000'000});
@@ -149,12 +192,23 @@ Expectations ReadExpectations(const TomlTable& table) {
           .min_clearance_m = number("min_clearance_m"),
           .min_road_margin_m = number("min_road_margin_m"),
           .max_rms_lateral_error_m = number("max_rms_lateral_error_m"),
-          .max_deadline_misses = count("max_deadline_misses")};
+          .max_deadline_misses = count("max_deadline_misses"),
+          .max_speed_excess_mps = limit("max_speed_excess_mps", "m/s"),
+          .max_rms_steering_rate = limit("max_rms_steering_rate", "rad/s"),
+          .max_p99_steering_rate = limit("max_p99_steering_rate", "rad/s"),
+          .max_rms_jerk = limit("max_rms_jerk", "m/s^3"),
+          .max_p99_jerk = limit("max_p99_jerk", "m/s^3"),
+          .max_free_standstill_s = limit("max_free_standstill_s", "s"),
+          .max_end_overshoot_m = limit("max_end_overshoot_m", "m"),
+          .max_end_gap_m = limit("max_end_gap_m", "m"),
+          .max_mode_changes = count("max_mode_changes"),
+          .max_safe_stops = count("max_safe_stops"),
+          .min_time_to_collision_s = limit("min_time_to_collision_s", "s")};
 }
 
 void ReadInitial(const TomlTable& table, Scenario& scenario) {
   const double along = table.NumberOr("along", 0.0, {0.0, scenario.route.length()}, "m");
-  const double lateral = table.NumberOr("lateral", 0.0, kLateral, "m");
+  const double lateral = table.NumberOr("lateral", 0.0, kObstacleLateral, "m");
   const double heading = table.NumberOr("heading", 0.0, {-1.0, 1.0}, "rad");
   const double speed = table.NumberOr("speed", scenario.route.At(along).speed, {0.0, 60.0}, "m/s");
   scenario.PlaceVehicle(along, speed, lateral, heading);

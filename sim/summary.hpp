@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "bus/messages.hpp"
+#include "sim/encounter_figures.hpp"
 #include "sim/scenario.hpp"
-#include "sim/virtual_vehicle.hpp"
 
 namespace sim {
 
@@ -20,7 +21,10 @@ struct UnmetConstraint {
 };
 
 struct Summary {
-  bool completed = false;    // the controller drove to the end of the route or of the scenario's duration
+  // The controller drove to the end of the route or of the scenario's duration; not if it stands in a deadlock when the
+  // duration ends: for more than 5 s although the way is free (sim/free_way.hpp), or without having ever moved.
+  bool completed = false;
+  bool time_is_up = false;   // the duration ended before the route did, more than 1 m before its end
   std::int64_t steps = 0;    // cycles from engagement on
   int infeasible_steps = 0;  // those in mode Active or Degraded with a status other than Solved
   int relaxed_steps = 0;     // cycles whose plan relaxed a soft constraint
@@ -32,6 +36,7 @@ struct Summary {
   // Signed distance from the footprint's outermost corner to the nearer road edge, negative off the road.
   std::optional<double> min_road_margin_m;
   std::optional<std::int64_t> contact_step;   // the first step with negative clearance, from 0
+  std::optional<ContactFault> contact_fault;  // ours if at least one contact is
   std::optional<std::int64_t> off_road_step;  // the first step with a negative road margin
   bool standing = false;                      // the vehicle was at standstill at the end
   std::optional<double> rms_lateral_error_m;  // distance to the reference path
@@ -39,47 +44,34 @@ struct Summary {
   int solve_time_p99_us = 0;
   int solve_time_max_us = 0;
   int deadline_misses = 0;
+  std::optional<double>
+      max_speed_excess_mps;  // greatest true speed over the route's target there (speed_excess.hpp)
+  // Of the commands received, from one cycle to the next, while they are to be obeyed.
+  std::optional<double> rms_steering_rate;  // [rad/s]
+  std::optional<double> p99_steering_rate;
+  std::optional<double> rms_jerk;  // [m/s³]
+  std::optional<double> p99_jerk;
+  // The longest time for which the vehicle stood although the way was free, more than 1 m before the route's end.
+  double longest_free_standstill_s = 0.0;
+  // How far the centre of gravity got past the route's end; negative: how far short of it it was at the end of the drive;
+  // none if it was never within the last 5 m. A drive ends at the route's end, at the first sample past it, unless the
+  // scenario expects a greatest overshoot or gap.
+  std::optional<double> end_overshoot_m;
+  int mode_changes = 0;  // after engagement, without those that end the drive at the route's end
+  int safe_stops = 0;    // those into SafeStop
+  std::optional<double>
+      min_time_to_collision_s;  // with an object ahead in the vehicle's way (encounter_figures.hpp)
 
   std::vector<std::string> failed_expectations;  // one line each; empty: passed
   [[nodiscard]] bool passed() const { return failed_expectations.empty(); }
 };
 
-class Recorder {
- public:
-  explicit Recorder(const Scenario& scenario) : scenario_(&scenario) {}  // must outlive the recorder
-
-  // Must be called once per cycle, after the controller's frames and before VirtualVehicle::Advance().
-  void Record(const VirtualVehicle& vehicle);
-
-  // True at the end of the duration or of the route, or if the state is not finite. Without a duration, also when the
-  // vehicle stays at standstill and the controller does not drive, or 10 s after twice the route's time.
-  [[nodiscard]] bool finished() const { return finished_; }
-  [[nodiscard]] double arc_length() const { return arc_length_; }  // the vehicle's place on the route [m]
-
-  [[nodiscard]] Summary Result() const;
-
- private:
-  void RecordStatus(const VirtualVehicle& vehicle);
-  void RecordUnmet(const VirtualVehicle& vehicle);
-  void RecordPlace(const VirtualVehicle& vehicle, double lateral);
-  [[nodiscard]] std::optional<double> Clearance(const VirtualVehicle& vehicle) const;
-  [[nodiscard]] double RoadMargin(const control::State& z) const;
-  [[nodiscard]] bool EndReached(const VirtualVehicle& vehicle) const;
-
-  const Scenario* scenario_;
-  bool engaged_ = false;  // the controller was active in some cycle
-  bool finished_ = false;
-  std::optional<double> hint_;
-  double arc_length_ = 0.0;
-  int standing_cycles_ = 0;
-  double squared_lateral_ = 0.0;
-  std::optional<std::uint16_t> last_misses_;
-  std::vector<int> solve_times_us_;
-  Summary summary_;
-};
+// One line for each of the scenario's expectations that the summary does not meet.
+[[nodiscard]] std::vector<std::string> FailedExpectations(const Summary& summary, const Expectations& expect);
 
 // Returns one JSON object with the names above and `passed`. The solve times are {"median", "p99", "max"} of
-// solve_time_us; an unmet constraint is {"step", "verdict", "constraint", "index", "horizon_step", "amount"}.
+// solve_time_us; an unmet constraint is {"step", "verdict", "constraint", "index", "horizon_step", "amount"};
+// contact_fault is "ours", "theirs" or null.
 [[nodiscard]] std::string ToJson(const Summary& summary);
 // Returns a few lines for a terminal.
 [[nodiscard]] std::string ToText(const Summary& summary);

@@ -5,7 +5,6 @@
 #include <optional>
 #include <variant>
 
-#include "control/road/keep_out.hpp"
 #include "dbc/e2e.hpp"
 
 namespace sim {
@@ -23,6 +22,26 @@ bus::PassingSide OnBus(control::PassingSide side) {
   return bus::PassingSide::kUnknown;
 }
 
+bus::Outline OnBus(control::ObstacleShape shape) {
+  return shape == control::ObstacleShape::kBox ? bus::Outline::kBox : bus::Outline::kEllipse;
+}
+
+bus::ObstacleClass OnBus(control::ObstacleClass object_class) {
+  switch (object_class) {
+    case control::ObstacleClass::kStatic:
+      return bus::ObstacleClass::kStatic;
+    case control::ObstacleClass::kVehicle:
+      return bus::ObstacleClass::kVehicle;
+    case control::ObstacleClass::kCycle:
+      return bus::ObstacleClass::kCycle;
+    case control::ObstacleClass::kPedestrian:
+      return bus::ObstacleClass::kPedestrian;
+    case control::ObstacleClass::kUnknown:
+      break;
+  }
+  return bus::ObstacleClass::kUnknown;
+}
+
 }  // namespace
 
 VirtualVehicle::VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& bus)
@@ -32,9 +51,8 @@ VirtualVehicle::VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& 
       acceleration_actuator_(scenario.acceleration, 0.0),
       sensors_(scenario.sensors, scenario.seed),
       driver_(scenario.driver),
-      obstacles_(scenario.obstacles),
-      appears_at_(scenario.appears_at) {
-  frames_.reserve(5 + 3 * obstacles_.size());
+      traffic_(scenario) {
+  frames_.reserve(5 + 3 * scenario.obstacles.size());
 }
 
 std::uint8_t VirtualVehicle::StateCounter() const {
@@ -49,11 +67,6 @@ void VirtualVehicle::Emit(const bus::Message& message, std::uint8_t counter, can
   frames_.push_back(frame);
 }
 
-bool VirtualVehicle::Perceives(const control::Obstacle& obstacle) const {
-  const auto appears = appears_at_.find(obstacle.id);
-  return appears == appears_at_.end() || time() >= appears->second - 1e-9;
-}
-
 void VirtualVehicle::EmitObstacles(can::Time now) {
   const auto emit = [&](const bus::Message& message) {
     Emit(message, object_counter_, now);
@@ -61,7 +74,7 @@ void VirtualVehicle::EmitObstacles(can::Time now) {
   };
   std::uint8_t count = 0;
   for (const control::Obstacle& obstacle : ObstaclesNow()) {
-    if (!Perceives(obstacle)) continue;
+    if (!traffic_.IsPerceived(obstacle.id)) continue;
     ++count;
     const auto id = static_cast<std::uint8_t>(obstacle.id);
     emit(bus::ObstaclePosition{.object_id = id, .X = obstacle.X, .Y = obstacle.Y});
@@ -69,9 +82,12 @@ void VirtualVehicle::EmitObstacles(can::Time now) {
                             .semi_axis_x = obstacle.r_x,
                             .semi_axis_y = obstacle.r_y,
                             .heading = obstacle.heading,
-                            .passing_side = OnBus(obstacle.side)});
-    emit(bus::ObstacleMotion{
-        .object_id = id, .velocity_X = obstacle.velocity_X, .velocity_Y = obstacle.velocity_Y});
+                            .passing_side = OnBus(obstacle.side),
+                            .outline = OnBus(obstacle.shape)});
+    emit(bus::ObstacleMotion{.object_id = id,
+                             .velocity_X = obstacle.velocity_X,
+                             .velocity_Y = obstacle.velocity_Y,
+                             .object_class = OnBus(obstacle.object_class)});
   }
   Emit(bus::ObstacleList{.count = count}, list_counter_, now);
   list_counter_ = dbc::NextCounter(list_counter_);
@@ -141,6 +157,7 @@ void VirtualVehicle::Advance() {
   Apply(steering_, steering_actuator_.value(), steering_actuator_);
   Apply(acceleration_, obeyed_ ? kDriverDeceleration : 0.0, acceleration_actuator_);
 
+  const control::State before = plant_.state();
   const auto steps = std::lround(kCycleTime / kIntegrationStep);
   for (long i = 0; i < steps; ++i) {
     const control::Input start = actuators();
@@ -152,6 +169,7 @@ void VirtualVehicle::Advance() {
     plant_.Step(start, middle, actuators(), kIntegrationStep);
   }
   ++cycle_;
+  traffic_.Advance(time(), before);
   for (Channel* channel : {&steering_, &acceleration_}) {
     channel->age = std::min(channel->age + 1, kCommandLifetime);
     channel->answered = false;
@@ -161,12 +179,9 @@ void VirtualVehicle::Advance() {
   unmet_.reset();
 }
 
-std::vector<control::Obstacle> VirtualVehicle::ObstaclesNow() const {
-  std::vector<control::Obstacle> obstacles = obstacles_;
-  for (control::Obstacle& obstacle : obstacles) {
-    obstacle = control::Predict(obstacle, time());
-  }
-  return obstacles;
+std::optional<control::Input> VirtualVehicle::commands() const {
+  if (!steering_.Obeyed() || !acceleration_.Obeyed()) return std::nullopt;
+  return control::Input(steering_.value, acceleration_.value);
 }
 
 }  // namespace sim

@@ -14,7 +14,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +25,7 @@
 #include "sim/plant.hpp"
 #include "sim/scenario.hpp"
 #include "sim/sensors.hpp"
+#include "sim/traffic.hpp"
 
 namespace sim {
 
@@ -38,8 +39,9 @@ class VirtualVehicle {
   VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& bus);
 
   // Returns the frames of one cycle, stamped `now`; must be called once per cycle: DriverRequest, three of
-  // ObstacleObject for each obstacle that has appeared, ObstacleList, then the state set: VehiclePose, VehicleMotion,
-  // VehicleFeedback. They are valid until the next call. A message with a value that is not finite is omitted.
+  // ObstacleObject for each obstacle that has appeared and has not disappeared, ObstacleList, then the state set:
+  // VehiclePose, VehicleMotion, VehicleFeedback. They are valid until the next call. A message with a value that is not
+  // finite is omitted.
   [[nodiscard]] std::span<const can::Frame> Sense(can::Time now);
 
   // Takes a frame of the controller. A frame with a wrong CRC or of another sender has no effect.
@@ -60,7 +62,10 @@ class VirtualVehicle {
   [[nodiscard]] control::Input actuators() const {
     return {steering_actuator_.value(), acceleration_actuator_.value()};
   }
-  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const;  // including those not yet perceived
+  // Those that exist, including those not yet perceived.
+  [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const { return traffic_.Now(); }
+  // The commands last received, if both are to be obeyed.
+  [[nodiscard]] std::optional<control::Input> commands() const;
 
   // The controller's last report.
   [[nodiscard]] bus::Mode mode() const { return status_.mode; }
@@ -87,7 +92,6 @@ class VirtualVehicle {
 
   void Emit(const bus::Message& message, std::uint8_t counter, can::Time now);
   void EmitObstacles(can::Time now);
-  [[nodiscard]] bool Perceives(const control::Obstacle& obstacle) const;
   [[nodiscard]] std::uint8_t StateCounter() const;
   template <typename Command>
   void Take(const Command& command, double value, Channel& channel) const;
@@ -99,8 +103,7 @@ class VirtualVehicle {
   Actuator acceleration_actuator_;
   Sensors sensors_;
   Driver driver_;
-  std::vector<control::Obstacle> obstacles_;  // at the start
-  std::map<int, double> appears_at_;
+  Traffic traffic_;
 
   std::int64_t cycle_ = 0;
   std::uint8_t request_counter_ = 0;

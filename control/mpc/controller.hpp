@@ -11,6 +11,7 @@
 #include "control/mpc/vehicle_qp.hpp"
 #include "control/qp/status.hpp"
 #include "control/road/route_place.hpp"
+#include "control/vehicle/disturbance.hpp"
 #include "control/vehicle/types.hpp"
 
 namespace control {
@@ -20,6 +21,8 @@ struct ControllerInput {
   Input u_previous = Input::Zero();  // input applied last, from which the rate limits of the first step count
   RoutePlace place;
   std::span<const Obstacle> obstacles;
+  Disturbance disturbance = {};  // taken to last; the paper's controllers ignore it
+  double mu_limit = kNoLimit;    // second bound of the friction coefficient; ignored likewise
   // Called before and within each iteration that could improve the plan but is not required. False ends that iteration
   // and keeps the plan before it. Null: time is unlimited.
   const TimeLeft* time_left = nullptr;

@@ -7,7 +7,8 @@ namespace control {
 
 LpvAffineMpc::LpvAffineMpc(const VehicleParameters& vehicle, const RoadProfile& profile,
                            const LpvAffineSettings& settings)
-    : settings_(settings),
+    : vehicle_(vehicle),
+      settings_(settings),
       model_(BlendedModel(vehicle), settings.t_s),
       tracking_(vehicle, profile, settings),
       qp_(settings.horizon),
@@ -45,7 +46,10 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
     prediction_.Shift();
     return plan_;
   }
-  tracking_.Begin(input.z, input.place.s, input.obstacles);
+  disturbance_ = input.disturbance;
+  grip_ = Grip(settings_, input.mu_limit);
+  model_ = DiscreteModel(BlendedModel(vehicle_, disturbance_), settings_.t_s);
+  tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance);
   CompareScheduling();
   if (tracking_.waiting()) {
     tracking_.Hold(input.u_previous, plan_.z, plan_.u);
@@ -76,7 +80,7 @@ void LpvAffineMpc::Solve(const ControllerInput& input) {
   for (int k = 0; k < most; ++k) {
     const TimeLeft* time_left = k < least ? nullptr : input.time_left;
     if (time_left != nullptr && !(*time_left)()) break;
-    // An obstacle for which the problem has no room must not be ignored: no plan is made.
+    // A row for which the problem has no room must not be ignored: no plan is made.
     const bool built = BuildQp(input.u_previous);
     if (built && qp_observer_) qp_observer_(qp_);
     const QpResult result =
@@ -102,7 +106,7 @@ bool LpvAffineMpc::BuildQp(const Input& u_previous) {
   const int N = settings_.horizon;
   const auto z_ref = tracking_.reference();
   const auto u_ref_before = [&](int i) { return tracking_.reference_input()[Index(std::max(i - 1, 0))]; };
-  const bool bounded = tracking_.BuildConstraints(prediction_.z());
+  tracking_.BuildConstraints(prediction_.z());
   rows_.Clear();
   qp_.x0 << tracking_.z() - z_ref[0], u_previous - u_ref_before(0);
   for (int i = 0; i <= N; ++i) {
@@ -127,7 +131,7 @@ bool LpvAffineMpc::BuildQp(const Input& u_previous) {
     stage.c.tail<kInputs>() = u_ref_before(i) - u_ref_before(i + 1);
     stage.R = 2.0 * settings_.R_rate;
   }
-  return bounded && rows_.fits();
+  return rows_.fits();
 }
 
 // Reads plan_ from the solution. Returns the largest change of a scheduling variable, in radii.

@@ -10,9 +10,12 @@
 //   min   Σ |z_i − z_ref_i|²_Q + |u_i − u_ref_i|²_R + |Δu_i|²_R_rate + penalties
 //   hard  |Δu_i| ≤ rate_max, u_min ≤ u_i ≤ u_max
 //   soft  0 ≤ υ ≤ υ_max;   road and obstacles with the vehicle's footprint;
-//         |υω| ≤ r, |υω ± a| ≤ √2 r: an octagon about the friction circle of radius r, without its sides |a| ≤ r, which
-//         the bounds of a replace;
+//         |υω − a_y| ≤ r, |υω − a_y ± a| ≤ √2 r: an octagon about the friction circle of radius r, without its sides
+//         |a| ≤ r, which the bounds of a replace;
 //         |p_i − p̂_i| ≤ e for p = [υ ν ψ δ]: the trust region
+//
+// F contains the step's disturbance (control/vehicle/disturbance.hpp), and so does the reference, so that a lasting
+// disturbance leaves no offset.
 //
 // Q, R weigh deviations from the reference, which includes the inputs δ_ref, a_ref. The QP's state is
 // x = [z − z_ref; u_{k−1} − u_ref] and its input is Δu, so that every bound of an input is one of a single variable.
@@ -64,8 +67,9 @@ class LpvAffineMpc final : public Controller {
   [[nodiscard]] double ReadPlan();
   void MeasureRelaxation();
 
+  VehicleParameters vehicle_;
   LpvAffineSettings settings_;
-  DiscreteModel model_;
+  DiscreteModel model_;  // with the disturbance of the step
   TrackingProblem tracking_;
   VehicleQp qp_;
   RowWriter rows_;
@@ -76,6 +80,8 @@ class LpvAffineMpc final : public Controller {
 
   Prediction prediction_;
   TrustRegion trust_region_;
+  Disturbance disturbance_;      // of this step
+  double grip_ = 0.0;            // r of this step [m/s²]
   bool has_warm_start_ = false;  // warm_start_ holds the last QP's solution; Step leaves it shifted
 };
 

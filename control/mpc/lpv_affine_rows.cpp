@@ -29,14 +29,15 @@ void LpvAffineMpc::AddFrictionRows(int i) {
   const State& z_hat = prediction_.z()[Index(i)];
   const Softness softness{.rho = settings_.state_penalty, .sigma = settings_.state_penalty};
   rows_.AddStateBound({.kind = ConstraintKind::kState, .index = kUpsilon, .step = i}, kUpsilon,
-                      -z_ref[kUpsilon], settings_.upsilon_max - z_ref[kUpsilon], softness);
+                      -z_ref[kUpsilon], tracking_.SpeedLimit(Index(i)) - z_ref[kUpsilon], softness);
   QpState C = QpState::Zero();
   C[kOmega] = z_hat[kUpsilon];
   C[kUpsilon] = z_hat[kOmega];
-  const double across = z_hat[kUpsilon] * z_ref[kOmega] + z_hat[kOmega] * (z_ref[kUpsilon] - z_hat[kUpsilon]);
+  const double across = z_hat[kUpsilon] * z_ref[kOmega] +
+                        z_hat[kOmega] * (z_ref[kUpsilon] - z_hat[kUpsilon]) - disturbance_.a_y;
   const double along = tracking_.reference_input()[Index(i - 1)][kAcceleration];
   for (const int sign : {0, 1, -1}) {
-    const double limit = (sign == 0 ? 1.0 : std::numbers::sqrt2) * Grip(settings_);
+    const double limit = (sign == 0 ? 1.0 : std::numbers::sqrt2) * grip_;
     C[kPreviousInput + kAcceleration] = sign;
     const double at_ref = across + sign * along;
     rows_.AddRow({.kind = ConstraintKind::kFriction, .index = sign == 0 ? 0 : 1, .step = i}, C, Input::Zero(),

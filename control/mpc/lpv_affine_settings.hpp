@@ -1,9 +1,11 @@
 // Settings of the problem that lpv-affine and nmpc-affine solve: horizon, weights, bounds, margins.
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 
 #include "control/qp/solver.hpp"
+#include "control/vehicle/disturbance.hpp"
 #include "control/vehicle/footprint.hpp"
 #include "control/vehicle/types.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
@@ -48,9 +50,10 @@ struct LpvAffineSettings {
   QpSettings qp{.tolerance = 1e-6, .max_iterations = 120};
 };
 
-// The radius r of the friction circle that a plan may use [m/s²].
-[[nodiscard]] inline double Grip(const LpvAffineSettings& settings) {
-  return settings.friction_share * settings.mu * kGravity;
+// The radius r of the friction circle that a plan may use, on a road whose friction coefficient is at most `mu_limit`
+// [m/s²].
+[[nodiscard]] inline double Grip(const LpvAffineSettings& settings, double mu_limit = kNoLimit) {
+  return settings.friction_share * std::min(settings.mu, mu_limit) * kGravity;
 }
 
 }  // namespace control

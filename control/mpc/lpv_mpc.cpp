@@ -115,8 +115,9 @@ void LpvMpc::AddStateRows(const TrackingInput& input, int i) {
   }
   QpState normal = QpState::Zero();
   normal.segment<2>(kX) = LeftOf(z_ref[kPsi]);
-  rows_.AddRow({.kind = ConstraintKind::kRoad, .index = 0, .step = i}, normal, Input::Zero(),
-               input.road.right, input.road.left);
+  const RoadBounds& road = input.road[Index(i)];
+  rows_.AddRow({.kind = ConstraintKind::kRoad, .index = 0, .step = i}, normal, Input::Zero(), road.right,
+               road.left);
 }
 
 void LpvMpc::AddSteeringTrust(int i) {

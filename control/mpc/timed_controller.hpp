@@ -8,15 +8,16 @@
 
 #include "control/mpc/controller.hpp"
 #include "control/mpc/tracking_controller.hpp"
+#include "control/road/road_edges.hpp"
 #include "control/road/time_reference.hpp"
 
 namespace control {
 
 class TimedController final : public Controller {
  public:
-  // `reference` must outlive the controller; `road` is relative to the reference.
+  // `reference` must outlive the controller; `edges` are relative to the reference.
   TimedController(std::unique_ptr<TrackingController> controller, const TimeReference& reference,
-                  const RoadBounds& road);
+                  const RoadEdges& edges);
 
   [[nodiscard]] int horizon() const override { return controller_->horizon(); }
   [[nodiscard]] RouteProgress ProgressAt(const RoutePlace& place) const override {
@@ -34,8 +35,9 @@ class TimedController final : public Controller {
  private:
   std::unique_ptr<TrackingController> controller_;
   const TimeReference* reference_;
-  RoadBounds road_;
+  RoadEdges edges_;
   std::vector<State> window_;
+  std::vector<RoadBounds> road_;  // beside the window's samples
 };
 
 }  // namespace control

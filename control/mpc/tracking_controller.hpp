@@ -14,7 +14,7 @@ struct TrackingInput {
   State z = State::Zero();           // measured; ψ within π of the reference's
   Input u_previous = Input::Zero();  // input applied last, from which the rate limits of the first step count
   std::span<const State> reference;  // z_ref, steps 0..N: N + 1 states
-  RoadBounds road;                   // relative to the reference
+  std::span<const RoadBounds> road;  // relative to the reference, steps 0..N
   std::span<const Obstacle> obstacles;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/qp/problem.hpp"
 #include "control/road/keep_out.hpp"
@@ -9,41 +10,80 @@
 
 namespace control {
 
+namespace {
+
 using Eigen::Vector2d;
+
+constexpr double kLeastStretch = 0.1;  // beyond the centre of a bend
+constexpr double kOverLimit = 0.3;     // [m/s]
+constexpr double kSlowDown = 1.0;      // deceleration of a vehicle that is too fast, at least [m/s²]
+
+TrafficSettings TrafficSettingsOf(const VehicleParameters& vehicle, const LpvAffineSettings& settings) {
+  TrafficSettings traffic{.footprint = settings.footprint,
+                          .obstacle_margin = settings.obstacle_margin,
+                          .road_margin = settings.road_margin,
+                          .stop_gap = settings.stop_gap,
+                          .grip = Grip(settings),
+                          .path = {}};
+  traffic.path.max_curvature = std::tan(settings.u_max[kDelta]) / (vehicle.l_f + vehicle.l_r);
+  return traffic;
+}
+
+// Distance of the nearest corner from the half-space's edge, negative outside the half-space [m].
+double Clearance(const HalfSpace& outside, const State& z, const Footprint& footprint) {
+  const Vector2d normal(outside.a, outside.b);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector2d& corner : footprint.Corners()) {
+    least = std::min(least, normal.dot(Position(z) + Rotate(z[kPsi], corner)) - outside.c);
+  }
+  return least;
+}
+
+}  // namespace
 
 TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                                  const LpvAffineSettings& settings)
     : settings_(settings),
       profile_(&profile),
       progress_(vehicle, profile, settings.t_s),
-      passing_({.footprint = settings.footprint,
-                .margin = settings.obstacle_margin,
-                .road_margin = settings.road_margin,
-                .grip = Grip(settings)},
-               profile) {
+      traffic_(TrafficSettingsOf(vehicle, settings), profile) {
   const auto N = static_cast<std::size_t>(settings.horizon);
   z_ref_.assign(N + 1, State::Zero());
   u_ref_.assign(N, Input::Zero());
   s_ref_.assign(N + 1, 0.0);
   rows_.resize(N + 1);
   counts_.assign(N + 1, 0);
-  stops_.reserve(PassingPlanner::kMostObstacles);
 }
 
 void TrackingProblem::Reset() {
   waiting_ = false;
-  passing_.Reset();
+  traffic_.Reset();
 }
 
-void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> obstacles) {
+void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> obstacles,
+                            const Disturbance& disturbance) {
   constexpr double kStandstill = 0.15;    // [m/s]
   constexpr double kLeastDistance = 0.3;  // [m]
   obstacles_ = obstacles;
   Place(z, s);
-  DecidePassing();
-  progress_.Fill(s_, z_[kUpsilon], stops_, z_ref_, u_ref_, s_ref_);
+  manoeuvre_ = &traffic_.Plan(obstacles, place_);
+  first_stop_ = RoadObjects::kMost;
+  double first_s = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < manoeuvre_->stop_count; ++k) {
+    if (manoeuvre_->stop_lines[k].s >= first_s) continue;
+    first_s = manoeuvre_->stop_lines[k].s;
+    first_stop_ = manoeuvre_->stop_objects[k];
+  }
+  progress_.Fill(place_.s, z_[kUpsilon], *manoeuvre_, z_ref_, u_ref_, s_ref_, disturbance);
   const bool nowhere_to_go = s_ref_.back() - s_ref_.front() < kLeastDistance;
   waiting_ = nowhere_to_go && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
+}
+
+double TrackingProblem::SpeedLimit(std::size_t i) const {
+  const double s = s_ref_[i];
+  const double limit = std::min(profile_->At(s).speed, manoeuvre_->SpeedLimitAt(s));
+  const double slowed = place_.speed - kSlowDown * static_cast<double>(i) * settings_.t_s;
+  return std::min(settings_.upsilon_max, std::max(limit, slowed) + kOverLimit);
 }
 
 void TrackingProblem::Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const {
@@ -60,99 +100,104 @@ void TrackingProblem::Hold(const Input& u_previous, std::span<State> z, std::spa
 }
 
 void TrackingProblem::Place(const State& z, double s) {
+  constexpr double kSteepest = 1.0;    // slope of the vehicle's way
+  constexpr double kLeastSpeed = 2.0;  // below it, the vehicle moves along its axis [m/s]
   const RouteProjection place = profile_->Project(Position(z), s);
-  s_ = place.s;
-  lateral_ = place.lateral;
+  const double psi = profile_->At(place.s).psi;
   z_ = z;
-  z_[kPsi] = UnwrapAngle(z[kPsi], profile_->At(s_).psi);
+  z_[kPsi] = UnwrapAngle(z[kPsi], psi);
+  const double sideslip = z_[kUpsilon] > kLeastSpeed ? z_[kNu] / z_[kUpsilon] : 0.0;
+  place_ = {.s = place.s,
+            .lateral = place.lateral,
+            .slope = std::clamp(z_[kPsi] + sideslip - psi, -kSteepest, kSteepest),
+            .speed = z_[kUpsilon]};
 }
 
-void TrackingProblem::DecidePassing() {
-  decisions_ = passing_.Decide(obstacles_, s_, lateral_, z_[kUpsilon]);
-  stops_.clear();
-  first_stop_.reset();
-  double first_s = 0.0;
-  for (std::size_t k = 0; k < decisions_.size(); ++k) {
-    const PassingDecision& decision = decisions_[k];
-    if (decision.passage != Passage::kStop) continue;
-    const double before = decision.half_length + settings_.footprint.front + settings_.stop_gap;
-    stops_.push_back({.s = decision.s - before, .speed = std::max(decision.speed, 0.0)});
-    if (!first_stop_ || stops_.back().s < first_s) {
-      first_stop_ = k;
-      first_s = stops_.back().s;
-    }
-  }
-}
-
-bool TrackingProblem::BuildConstraints(std::span<const State> z_hat) {
-  bool fits = obstacles_.size() <= PassingPlanner::kMostObstacles;
-  double s = s_;
+void TrackingProblem::BuildConstraints(std::span<const State> z_hat) {
+  double s = place_.s;
   for (std::size_t i = 1; i < z_hat.size(); ++i) {
-    s = profile_->Project(Position(z_hat[i]), s).s;
-    const RoutePoint beside = profile_->At(s);
+    const RouteProjection place = profile_->Project(Position(z_hat[i]), s);
+    s = place.s;
     counts_[i] = 0;
-    fits &= AddRoad(i, z_hat[i], beside);
-    fits &= AddObstacles(i, z_hat[i], beside.psi);
+    AddRoad(i, z_hat[i], place);
+    AddObstacles(i, z_hat[i]);
   }
-  return fits;
 }
 
-bool TrackingProblem::Add(std::size_t i, const BodyRow& row) {
-  if (counts_[i] == kMostRows) return false;
+void TrackingProblem::Add(std::size_t i, const BodyRow& row) {
   rows_[i][counts_[i]++] = row;
-  return true;
 }
 
-// Adds rows for the middles of the front and the rear end; the corners are half a width beside them.
-bool TrackingProblem::AddRoad(std::size_t i, const State& z_hat, const RoutePoint& beside) {
+// Adds rows for the middles of the front and the rear end; the corners are half a width beside them. The width of the
+// road is that beside each end.
+void TrackingProblem::AddRoad(std::size_t i, const State& z_hat, const RouteProjection& place) {
+  const RoutePoint beside = profile_->At(place.s);
   const Vector2d left = LeftOf(beside.psi), point(beside.X, beside.Y);
-  const double inside = settings_.footprint.half_width + settings_.road_margin;
-  bool fits = true;
+  const double inside =
+      settings_.footprint.half_width + manoeuvre_->RoadMarginAt(place.s, settings_.road_margin);
+  // On a bend, the arc length to an end differs from the distance ahead along the tangent.
+  const double stretch = std::max(1.0 - beside.curvature * place.lateral, kLeastStretch);
   for (const int end : {0, 1}) {
     const Vector2d fixed(end == 0 ? settings_.footprint.front : -settings_.footprint.rear, 0.0);
     // The road bends away from its tangent.
     const double ahead = Along(beside.psi).dot(Position(z_hat) + Rotate(z_hat[kPsi], fixed) - point);
     const double middle = left.dot(point) + 0.5 * beside.curvature * ahead * ahead;
-    fits &=
-        Add(i, {.normal = left,
-                .fixed = fixed,
-                .lo = middle + profile_->road().right + inside,
-                .hi = middle + profile_->road().left - inside,
-                .constraint = {.kind = ConstraintKind::kRoad, .index = end, .step = static_cast<int>(i)}});
+    const RoadBounds road = profile_->RoadAt(place.s + ahead / stretch);
+    Add(i, {.normal = left,
+            .fixed = fixed,
+            .lo = middle + road.right + inside,
+            .hi = middle + road.left - inside,
+            .constraint = {.kind = ConstraintKind::kRoad, .index = end, .step = static_cast<int>(i)}});
   }
-  return fits;
 }
 
-bool TrackingProblem::AddObstacles(std::size_t i, const State& z_hat, double psi_road) {
-  bool fits = true;
-  for (std::size_t k = 0; k < decisions_.size(); ++k) {
-    const Passage passage = decisions_[k].passage;
-    if (passage == Passage::kIgnored || (passage == Passage::kStop && k != first_stop_)) continue;
-    const Obstacle obstacle = Predict(obstacles_[k], static_cast<double>(i) * settings_.t_s);
-    const auto outside = Outside(obstacle, passage, z_hat, psi_road);
+// Adds rows for the objects whose half-spaces the predicted vehicle is nearest to.
+void TrackingProblem::AddObstacles(std::size_t i, const State& z_hat) {
+  struct Near {
+    double clearance = 0.0;
+    HalfSpace outside;
+    int id = 0;
+  };
+  std::array<Near, kMostObstacles + 1> nearest;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < manoeuvre_->objects.size(); ++k) {
+    const auto outside = Outside(k, i, z_hat);
     if (!outside) continue;
-    const Vector2d normal(outside->a, outside->b);
+    const Near object{.clearance = Clearance(*outside, z_hat, settings_.footprint),
+                      .outside = *outside,
+                      .id = obstacles_[manoeuvre_->objects[k].index].id};
+    const auto end = nearest.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto place = std::ranges::upper_bound(nearest.begin(), end, object.clearance, {}, &Near::clearance);
+    std::move_backward(place, end, end + 1);
+    *place = object;
+    count = std::min(count + 1, kMostObstacles);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const HalfSpace& outside = nearest[k].outside;
+    const Vector2d normal(outside.a, outside.b);
     std::array<Vector2d, 4> corners = settings_.footprint.Corners();
     std::ranges::sort(corners, {},
                       [&](const Vector2d& corner) { return normal.dot(Rotate(z_hat[kPsi], corner)); });
-    for (const std::size_t nearest : {0U, 1U}) {
-      fits &=
-          Add(i, {.normal = normal,
-                  .fixed = corners[nearest],
-                  .lo = outside->c,
-                  .hi = kNoBound,
-                  .constraint = {
-                      .kind = ConstraintKind::kObstacle, .index = obstacle.id, .step = static_cast<int>(i)}});
+    for (const std::size_t corner : {0U, 1U}) {
+      Add(i, {.normal = normal,
+              .fixed = corners[corner],
+              .lo = outside.c,
+              .hi = kNoBound,
+              .constraint = {
+                  .kind = ConstraintKind::kObstacle, .index = nearest[k].id, .step = static_cast<int>(i)}});
     }
   }
-  return fits;
 }
 
-std::optional<HalfSpace> TrackingProblem::Outside(const Obstacle& obstacle, Passage passage,
-                                                  const State& z_hat, double psi_road) const {
-  const double margin = settings_.obstacle_margin;
-  if (passage == Passage::kStop) return HalfSpaceBefore(obstacle, psi_road, margin);
-  const PassingSide side = passage == Passage::kLeft ? PassingSide::kLeft : PassingSide::kRight;
+std::optional<HalfSpace> TrackingProblem::Outside(std::size_t k, std::size_t i, const State& z_hat) const {
+  const Side passed = manoeuvre_->side[k];
+  if (passed == Side::kNone && k != first_stop_) return std::nullopt;
+  const RoadObject& object = manoeuvre_->objects[k];
+  const double time = static_cast<double>(i) * settings_.t_s, margin = manoeuvre_->margin[k];
+  const Obstacle obstacle = Predict(obstacles_[object.index], object, *profile_, time);
+  const double psi_road = profile_->At(object.SAt(time)).psi;
+  if (k == first_stop_) return HalfSpaceBefore(obstacle, psi_road, margin);
+  const PassingSide side = passed == Side::kLeft ? PassingSide::kLeft : PassingSide::kRight;
   const double reach = 0.5 * settings_.t_s * z_hat[kUpsilon] + margin;
   return PassingHalfSpace(obstacle, side, z_hat, psi_road, settings_.footprint, margin, reach);
 }

@@ -1,6 +1,6 @@
-// The tracking problem of one control step, independent of the solver: the reference from the vehicle's place on, the
-// passing side of each obstacle or the place to stop, and the rows that keep the vehicle's rectangle on the road and
-// out of obstacles. The decisions are kept from step to step.
+// The tracking problem of one control step, independent of the solver: the manoeuvre among the things on the road
+// (traffic_planner.hpp), the reference along its path, and the rows that keep the vehicle's rectangle on the road and out
+// of obstacles.
 //
 //   tracking.Begin(z, s, obstacles);    // once per step
 //   tracking.BuildConstraints(z_hat);   // once for each new predicted trajectory
@@ -15,9 +15,9 @@
 #include "control/mpc/constraint.hpp"
 #include "control/mpc/lpv_affine_settings.hpp"
 #include "control/road/halfspace.hpp"
-#include "control/road/passing.hpp"
-#include "control/road/progress_reference.hpp"
 #include "control/road/road_profile.hpp"
+#include "control/traffic/progress_reference.hpp"
+#include "control/traffic/traffic_planner.hpp"
 #include "control/vehicle/types.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
 
@@ -34,21 +34,24 @@ struct BodyRow {
 
 class TrackingProblem {
  public:
-  static constexpr std::size_t kMostRows = 16;  // per step
+  static constexpr std::size_t kMostObstacles = 6;  // that have rows in one step: the nearest ones
+  static constexpr std::size_t kMostRows = 2 + 2 * kMostObstacles;  // per step
 
   // `profile` must outlive the problem.
   TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                   const LpvAffineSettings& settings);
 
   // `s`: where the search for the vehicle's place on the road begins [m].
-  void Begin(const State& z, double s, std::span<const Obstacle> obstacles);
-  // False if a step needs more than kMostRows rows or there are more than PassingPlanner::kMostObstacles obstacles:
-  // then no plan may be made.
-  [[nodiscard]] bool BuildConstraints(std::span<const State> z_hat);
+  void Begin(const State& z, double s, std::span<const Obstacle> obstacles,
+             const Disturbance& disturbance = {});
+  void BuildConstraints(std::span<const State> z_hat);
   // Forgets all decisions.
   void Reset();
 
   [[nodiscard]] const State& z() const { return z_; }  // as given to Begin, but ψ within π of the road's
+  [[nodiscard]] const Manoeuvre& manoeuvre() const { return *manoeuvre_; }
+  // Highest speed at step i [m/s].
+  [[nodiscard]] double SpeedLimit(std::size_t i) const;
   // True (almost) at standstill with nowhere to go; hysteresis keeps noise from ending it.
   [[nodiscard]] bool waiting() const { return waiting_; }
   // Fills in the plan of a waiting vehicle: the brake holds, the wheels stay as they are.
@@ -60,26 +63,23 @@ class TrackingProblem {
 
  private:
   void Place(const State& z, double s);
-  void DecidePassing();
-  [[nodiscard]] bool Add(std::size_t i, const BodyRow& row);
-  [[nodiscard]] bool AddRoad(std::size_t i, const State& z_hat, const RoutePoint& beside);
-  [[nodiscard]] bool AddObstacles(std::size_t i, const State& z_hat, double psi_road);
-  [[nodiscard]] std::optional<HalfSpace> Outside(const Obstacle& obstacle, Passage passage,
-                                                 const State& z_hat, double psi_road) const;
+  void Add(std::size_t i, const BodyRow& row);
+  void AddRoad(std::size_t i, const State& z_hat, const RouteProjection& place);
+  void AddObstacles(std::size_t i, const State& z_hat);
+  // The half-space of road object k at step i; none if it has no effect there.
+  [[nodiscard]] std::optional<HalfSpace> Outside(std::size_t k, std::size_t i, const State& z_hat) const;
 
   LpvAffineSettings settings_;
   const RoadProfile* profile_;
   ProgressReference progress_;
-  PassingPlanner passing_;
+  TrafficPlanner traffic_;
 
   State z_ = State::Zero();
-  double s_ = 0.0;        // arc length on the road [m]
-  double lateral_ = 0.0;  // offset from the road, left positive [m]
+  RoadPosition place_;
   bool waiting_ = false;
   std::span<const Obstacle> obstacles_;
-  std::span<const PassingDecision> decisions_;
-  std::vector<StopLine> stops_;
-  std::optional<std::size_t> first_stop_;  // index of the obstacle before which the vehicle stops
+  const Manoeuvre* manoeuvre_;
+  std::size_t first_stop_ = RoadObjects::kMost;  // road object before which the vehicle stops; kMost: none
   std::vector<State> z_ref_;
   std::vector<Input> u_ref_;
   std::vector<double> s_ref_;

@@ -9,7 +9,6 @@ AffineNmpc::AffineNmpc(const VehicleParameters& vehicle, const RoadProfile& prof
                        const LpvAffineSettings& problem, const AffineNmpcSettings& settings)
     : settings_(settings),
       trust_region_(problem.trust_radius),
-      model_(BlendedModel(vehicle), problem.t_s),
       tracking_(vehicle, profile, problem),
       problem_(vehicle, problem),
       // No scaling: the penalties would scale the cost down and change the unit of the tolerance. With penalties this
@@ -39,38 +38,34 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
     prediction_.Shift();
     return plan_;
   }
-  tracking_.Begin(input.z, input.place.s, input.obstacles);
+  tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance);
   if (tracking_.waiting()) {
     tracking_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;
     prediction_.Clear();
     has_duals_ = false;
   } else {
-    Solve(input.u_previous);
+    Solve(input);
   }
   return plan_;
 }
 
 // Solves in rounds; a round that fails leaves the previous plan in place.
-void AffineNmpc::Solve(const Input& u_previous) {
+void AffineNmpc::Solve(const ControllerInput& input) {
   if (prediction_.exists()) {
-    prediction_.RollOut(tracking_.z(), model_);
+    prediction_.RollOut(tracking_.z(), problem_.ModelWith(input.disturbance));
   } else {
     prediction_.Follow(tracking_.z(), tracking_.reference(), tracking_.reference_input());
   }
   for (int round = 0; round < settings_.rounds; ++round) {
-    SolverStatus status = SolverStatus::kNumericalFailure;
-    // An obstacle for which the problem has no room must not be ignored.
-    if (tracking_.BuildConstraints(prediction_.z())) {
-      const AffineNmpcProblem last = problem_;
-      problem_.Set(tracking_, u_previous);
-      point_ = Start(last, round == 0 ? 1 : 0);
-      const IpoptSolver::Result result = solver_.Solve(problem_, point_, has_duals_);
-      plan_.iterations += result.iterations;
-      status = result.status;
-    }
-    has_duals_ = status == SolverStatus::kSolved;
-    if (round == 0 || has_duals_) plan_.status = status;
+    tracking_.BuildConstraints(prediction_.z());
+    const AffineNmpcProblem last = problem_;
+    problem_.Set(tracking_, input.u_previous, input.disturbance, input.mu_limit);
+    point_ = Start(last, round == 0 ? 1 : 0);
+    const IpoptSolver::Result result = solver_.Solve(problem_, point_, has_duals_);
+    plan_.iterations += result.iterations;
+    has_duals_ = result.status == SolverStatus::kSolved;
+    if (round == 0 || has_duals_) plan_.status = result.status;
     if (!has_duals_) break;
     const double change = ReadPlan();
     prediction_.Set(plan_);

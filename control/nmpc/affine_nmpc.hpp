@@ -8,8 +8,7 @@
 // it becomes the next prediction and another round follows. The solution is local, on the sides that
 // tracking_problem.hpp decides on.
 //
-// Status: that of ipopt_solver.hpp, and kNumericalFailure if a value is not finite or there is no room for an
-// obstacle.
+// Status: that of ipopt_solver.hpp, and kNumericalFailure if a value is not finite.
 #pragma once
 
 #include <vector>
@@ -22,7 +21,6 @@
 #include "control/nmpc/affine_nmpc_problem.hpp"
 #include "control/nmpc/ipopt_solver.hpp"
 #include "control/road/road_profile.hpp"
-#include "control/vehicle/discrete_model.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
 
 namespace control {
@@ -50,14 +48,13 @@ class AffineNmpc final : public Controller {
   void Reset() override;
 
  private:
-  void Solve(const Input& u_previous);
+  void Solve(const ControllerInput& input);
   [[nodiscard]] NonlinearPoint Start(const AffineNmpcProblem& last, int shift) const;
   [[nodiscard]] double ReadPlan();
   void MeasureRelaxation();
 
   AffineNmpcSettings settings_;
   TrustRegion trust_region_;
-  DiscreteModel model_;
   TrackingProblem tracking_;
   AffineNmpcProblem problem_;
   IpoptSolver solver_;

@@ -16,9 +16,13 @@ using Eigen::Vector2d;
 }  // namespace
 
 AffineNmpcProblem::AffineNmpcProblem(const VehicleParameters& vehicle, const LpvAffineSettings& settings)
-    : settings_(settings), model_(BlendedModel(vehicle), settings.t_s), steps_(Index(settings.horizon)) {}
+    : vehicle_(vehicle), settings_(settings), model_(ModelWith({})), steps_(Index(settings.horizon)) {}
 
-void AffineNmpcProblem::Set(const TrackingProblem& tracking, const Input& u_previous) {
+void AffineNmpcProblem::Set(const TrackingProblem& tracking, const Input& u_previous,
+                            const Disturbance& disturbance, double mu_limit) {
+  grip_ = Grip(settings_, mu_limit);
+  model_ = ModelWith(disturbance);
+  a_y_ = disturbance.a_y;
   z_0_ = tracking.z();
   u_previous_ = u_previous;
   z_ref_.assign(tracking.reference().begin(), tracking.reference().end());
@@ -29,6 +33,7 @@ void AffineNmpcProblem::Set(const TrackingProblem& tracking, const Input& u_prev
     steps_[i].first_variable = variables_;
     steps_[i].first_row = rows_;
     steps_[i].body.assign(body.begin(), body.end());
+    steps_[i].speed_limit = tracking.SpeedLimit(i + 1);
     const int soft = SoftRows(static_cast<int>(i) + 1);
     variables_ += kInputs + kStates + 2 * soft;
     rows_ += kStates + kInputs + soft;
@@ -88,10 +93,10 @@ double AffineNmpcProblem::Penalty(int i, int soft) const {
 }
 
 std::array<double, 2> AffineNmpcProblem::SoftBounds(int i, int soft) const {
-  if (soft == kSpeedRow) return {0.0, settings_.upsilon_max};
+  if (soft == kSpeedRow) return {0.0, steps_[Index(i - 1)].speed_limit};
   if (soft >= kBodyRow) return {Body(i, soft).lo, Body(i, soft).hi};
   const bool across = kFrictionSigns.at(Index(soft - 1)) == 0;
-  const double limit = (across ? 1.0 : std::numbers::sqrt2) * Grip(settings_);
+  const double limit = (across ? 1.0 : std::numbers::sqrt2) * grip_;
   return {-limit, limit};
 }
 
@@ -102,7 +107,7 @@ AffineNmpcProblem::Row AffineNmpcProblem::SoftRow(int i, int soft, const State& 
     row.by_z[kUpsilon] = 1.0;
   } else if (soft < kBodyRow) {
     row.by_a = kFrictionSigns.at(Index(soft - 1));
-    row.value = z[kUpsilon] * z[kOmega] + row.by_a * u[kAcceleration];
+    row.value = z[kUpsilon] * z[kOmega] - a_y_ + row.by_a * u[kAcceleration];
     row.by_z[kUpsilon] = z[kOmega];
     row.by_z[kOmega] = z[kUpsilon];
   } else {

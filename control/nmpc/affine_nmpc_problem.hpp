@@ -8,7 +8,7 @@
 //         0 = z_{i+1} − F(z_i, u_i)                            6 rows   (discrete_model.hpp)
 //         |u_i − u_{i−1}| ≤ rate_max, u_{−1} the last applied input   2 rows
 //   soft: 0 ≤ υ ≤ υ_max                                        1 row, at i + 1 like all below
-//         |υω| ≤ r, |υω ± a_i| ≤ √2 r                          3 rows
+//         |υω − a_y| ≤ r, |υω − a_y ± a_i| ≤ √2 r              3 rows
 //         lo ≤ normalᵀ (p + R(ψ) fixed) ≤ hi                   one for each BodyRow of tracking_problem.hpp
 //         u_min ≤ u_i ≤ u_max                                  bounds of the variables
 //
@@ -38,7 +38,12 @@ class AffineNmpcProblem final : public NonlinearProgram {
   AffineNmpcProblem(const VehicleParameters& vehicle, const LpvAffineSettings& settings);
 
   // Sets the problem of this step with the tracking problem's rows, after its BuildConstraints.
-  void Set(const TrackingProblem& tracking, const Input& u_previous);
+  void Set(const TrackingProblem& tracking, const Input& u_previous, const Disturbance& disturbance = {},
+           double mu_limit = kNoLimit);
+
+  [[nodiscard]] DiscreteModel ModelWith(const Disturbance& disturbance) const {
+    return {BlendedModel(vehicle_, disturbance), settings_.t_s};
+  }
 
   [[nodiscard]] int horizon() const { return settings_.horizon; }
   // Indices in x of u_i (i = 0..N-1), of z_i (i = 1..N) and of ε_lo of soft row `soft` at z_i; ε_hi follows ε_lo.
@@ -86,6 +91,7 @@ class AffineNmpcProblem final : public NonlinearProgram {
     int first_variable = 0;
     int first_row = 0;
     std::vector<BodyRow> body;  // rows of the body at z_{i+1}
+    double speed_limit = 0.0;   // at z_{i+1} [m/s]
   };
   // Value of a soft row, and its derivatives with respect to z_i and a_{i−1}.
   struct Row {
@@ -109,8 +115,11 @@ class AffineNmpcProblem final : public NonlinearProgram {
   void VisitHessian(std::span<const double> x, double sigma, std::span<const double> lambda,
                     const Visit& visit) const;
 
+  VehicleParameters vehicle_;
   LpvAffineSettings settings_;
-  DiscreteModel model_;
+  DiscreteModel model_;  // with the disturbance of the step
+  double a_y_ = 0.0;     // the disturbance's [m/s²]
+  double grip_ = 0.0;    // r of the step [m/s²]
   State z_0_ = State::Zero();
   Input u_previous_ = Input::Zero();
   std::vector<State> z_ref_;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "control/vehicle/geometry.hpp"
+#include "control/vehicle/obstacle_geometry.hpp"
 
 namespace control {
 namespace {
@@ -61,13 +62,14 @@ void NmpcProblem::Set(const TrackingInput& input) {
   const bool resized = jacobian_pattern_.empty() || ellipses_.size() != input.obstacles.size();
   ellipses_.clear();
   for (const Obstacle& obstacle : input.obstacles) {
-    const Eigen::Matrix2d axes = Eigen::Rotation2Dd(obstacle.heading).toRotationMatrix();
-    const Eigen::Vector2d radii(obstacle.r_x + settings_.obstacle_margin,
-                                obstacle.r_y + settings_.obstacle_margin);
-    ellipses_.push_back({.centre = {obstacle.X, obstacle.Y},
+    const Obstacle ellipse = EnclosingEllipse(obstacle);
+    const Eigen::Matrix2d axes = Eigen::Rotation2Dd(ellipse.heading).toRotationMatrix();
+    const Eigen::Vector2d radii(ellipse.r_x + settings_.obstacle_margin,
+                                ellipse.r_y + settings_.obstacle_margin);
+    ellipses_.push_back({.centre = {ellipse.X, ellipse.Y},
                          .M = axes * radii.cwiseAbs2().cwiseInverse().asDiagonal() * axes.transpose(),
                          .smaller_semi_axis = radii.minCoeff(),
-                         .id = obstacle.id});
+                         .id = ellipse.id});
   }
   if (resized) MakePatterns();
 
@@ -92,7 +94,8 @@ void NmpcProblem::Set(const TrackingInput& input) {
       bound(row_bounds_, origin - settings_.rate_max[j], origin + settings_.rate_max[j]);
     }
     const double middle = Normal(i + 1).dot(z_ref.head<2>());
-    bound(row_bounds_, middle + input.road.right, middle + input.road.left);
+    const RoadBounds& road = input.road[Index(i) + 1];
+    bound(row_bounds_, middle + road.right, middle + road.left);
     for (std::size_t j = 0; j < ellipses_.size(); ++j) bound(row_bounds_, 1.0, kNone);
   }
 }

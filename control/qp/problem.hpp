@@ -146,5 +146,6 @@ template <int kNx, int kNu>
 }
 
 extern template struct OcpQpStage<8, 2>;
+extern template struct OcpQpStage<2, 1>;
 
 }  // namespace control

@@ -95,5 +95,6 @@ QpResult OcpQpSolver<kNx, kNu>::Solve(const Qp& qp, const Point* warm_start, con
 }
 
 extern template class OcpQpSolver<8, 2>;
+extern template class OcpQpSolver<2, 1>;
 
 }  // namespace control

@@ -1,6 +1,7 @@
 // Obstacle avoidance as one half-space a X + b Y ≥ c per step (paper, Section linobs, Algorithm 1): where the
 // reference point lies inside the obstacle's ellipse, it is projected along the road's normal onto the circumference,
 // on the side on which the obstacle is passed, and the vehicle is kept beyond the tangent at that point.
+// A box counts as the ellipse through its corners, whose semi-axes are √2 times the half sides.
 #pragma once
 
 #include <optional>

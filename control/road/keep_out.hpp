@@ -1,10 +1,10 @@
 // Half-spaces that keep a vehicle with a footprint out of obstacles (paper, Section linobs, for a vehicle that is not
-// a point): the tangent of the obstacle's ellipse on the passing side, about the predicted pose. Keeping the
-// vehicle's rectangle beyond it takes one row per corner; the two nearest corners are enough, since the others follow
-// while the heading changes little.
+// a point): the tangent of the enlarged obstacle (control/vehicle/obstacle_geometry.hpp) on the passing side, about the
+// predicted pose. Keeping the vehicle's rectangle beyond it takes one row per corner; the two nearest corners are
+// enough, since the others follow while the heading changes little.
 //
-// Beside the obstacle, the tangent is parallel to the road; before and behind the obstacle, it turns with the
-// ellipse, by at most 45°, so that a row never becomes a wall across the road.
+// Beside the obstacle, the tangent is parallel to the road; before and behind its widest place, it turns with the
+// obstacle's edge, by at most 45°, so that a row never becomes a wall across the road.
 #pragma once
 
 #include <optional>

@@ -18,8 +18,8 @@ double StoppingSpeed(double distance, double deceleration) {
   return distance > RoadProfile::kStopWithin ? std::sqrt(2.0 * deceleration * distance) : 0.0;
 }
 
-RoadProfile::RoadProfile(const Route& route, const RoadBounds& road, const SpeedLimits& limits)
-    : length_(route.length()), road_(road), limits_(limits) {
+RoadProfile::RoadProfile(const Route& route, const RoadEdges& edges, const SpeedLimits& limits)
+    : length_(route.length()), edges_(edges), limits_(limits) {
   const auto steps = std::max<long>(1, std::lround(std::ceil(length_ / kSpacing)));
   spacing_ = length_ / static_cast<double>(steps);
   points_.reserve(static_cast<std::size_t>(steps) + 1);

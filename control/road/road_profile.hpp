@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "control/road/road_edges.hpp"
 #include "control/road/route.hpp"
-#include "control/vehicle/types.hpp"
 
 namespace control {
 
@@ -24,14 +24,16 @@ class RoadProfile {
   static constexpr double kSpacing = 0.5;      // sample spacing [m]
   static constexpr double kStopWithin = 0.25;  // nearer than this to a stopping point, the speed is 0 [m]
 
-  RoadProfile(const Route& route, const RoadBounds& road, const SpeedLimits& limits);
+  RoadProfile(const Route& route, const RoadEdges& edges, const SpeedLimits& limits);
 
   [[nodiscard]] double length() const { return length_; }
-  [[nodiscard]] const RoadBounds& road() const { return road_; }
+  [[nodiscard]] const RoadEdges& edges() const { return edges_; }
   [[nodiscard]] const SpeedLimits& limits() const { return limits_; }
 
   // `speed` is the profile's. The road continues straight before the start and after the end, where the speed is 0.
   [[nodiscard]] RoutePoint At(double s) const;
+  // The road's edges beside the point at s.
+  [[nodiscard]] RoadBounds RoadAt(double s) const { return edges_.At(s); }
   // The nearest point of the road profile, by local search from s = `hint`.
   [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position, double hint) const;
 
@@ -39,7 +41,7 @@ class RoadProfile {
   std::vector<RoutePoint> points_;  // points at s = k spacing_
   double spacing_;
   double length_;
-  RoadBounds road_;
+  RoadEdges edges_;
   SpeedLimits limits_;
 };
 

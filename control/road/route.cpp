@@ -65,7 +65,8 @@ constexpr double kHintWindow = 25.0;    // [m]
 struct Route::Geometry {
   std::vector<Segment> segments;
   std::vector<SpeedRamp> ramps;
-  std::vector<Vector2d> samples;  // spaced evenly from start to end
+  std::vector<double> knots{0.0};  // arc lengths of the waypoints or the ends of the pieces
+  std::vector<Vector2d> samples;   // spaced evenly from start to end
   double spacing = 0.0;
   double length = 0.0;
   RoutePoint end;
@@ -131,15 +132,15 @@ Route Route::FromPieces(const RouteStart& start, double speed, std::span<const R
       geometry->Append(piece.length / parts, geometry->end, LinearCurvature{curvature, slope});
     }
     geometry->AppendRamp(piece.length, speed, speed_to);
+    geometry->knots.push_back(geometry->length);
     speed = speed_to;
   }
   geometry->Sample();
   return Route(std::move(geometry));
 }
 
-Route Route::ThroughWaypoints(std::span<const Vector2d> waypoints, double speed) {
+std::shared_ptr<Route::Geometry> Route::Spline(std::span<const Vector2d> waypoints) {
   Require(waypoints.size() >= 2, "fewer than two waypoints");
-  Require(std::isfinite(speed) && speed > 0.0, "speed must be above 0");
   Require(waypoints[0].allFinite(), "waypoint 0 is not finite");
   std::vector<double> h;
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
@@ -159,10 +160,35 @@ Route Route::ThroughWaypoints(std::span<const Vector2d> waypoints, double speed)
     RoutePoint start = geometry->end;
     if (i == 0) start.psi = std::atan2(cubic.c[1].y(), cubic.c[1].x());
     geometry->Append(cubic.length, start, cubic);
+    geometry->knots.push_back(geometry->length);
   }
+  return geometry;
+}
+
+Route Route::ThroughWaypoints(std::span<const Vector2d> waypoints, double speed) {
+  Require(std::isfinite(speed) && speed > 0.0, "speed must be above 0");
+  std::shared_ptr<Geometry> geometry = Spline(waypoints);
   geometry->AppendRamp(geometry->length, speed, speed);
   geometry->Sample();
   return Route(std::move(geometry));
+}
+
+Route Route::ThroughWaypoints(std::span<const Vector2d> waypoints, std::span<const double> speeds) {
+  Require(speeds.size() == waypoints.size(), "there must be one speed for each waypoint");
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    Require(std::isfinite(speeds[i]) && speeds[i] > 0.0,
+            "waypoint " + std::to_string(i) + ": speed must be above 0");
+  }
+  std::shared_ptr<Geometry> geometry = Spline(waypoints);
+  for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
+    geometry->AppendRamp(geometry->segments[i].length, speeds[i], speeds[i + 1]);
+  }
+  geometry->Sample();
+  return Route(std::move(geometry));
+}
+
+std::span<const double> Route::knots() const {
+  return geometry_->knots;
 }
 
 double Route::length() const {

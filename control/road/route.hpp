@@ -57,9 +57,16 @@ class Route {
   // Throws std::invalid_argument, which names the waypoint, if there are fewer than two, two consecutive ones are
   // equal or a value is not finite, and also if speed <= 0.
   [[nodiscard]] static Route ThroughWaypoints(std::span<const Eigen::Vector2d> waypoints, double speed);
+  // The target speed is that of each waypoint and changes linearly over s between them. Throws as above, and also if there
+  // is not one speed for each waypoint.
+  [[nodiscard]] static Route ThroughWaypoints(std::span<const Eigen::Vector2d> waypoints,
+                                              std::span<const double> speeds);
 
   [[nodiscard]] double length() const;    // [m]
   [[nodiscard]] double duration() const;  // at the target speed [s]
+
+  // Arc lengths of the waypoints, or of the start and each piece's end [m].
+  [[nodiscard]] std::span<const double> knots() const;
 
   [[nodiscard]] RoutePoint At(double s) const;
   // Arc length at time t of a vehicle that starts at s = 0 at t = 0 and keeps the target speed.
@@ -72,6 +79,7 @@ class Route {
 
  private:
   struct Geometry;
+  [[nodiscard]] static std::shared_ptr<Geometry> Spline(std::span<const Eigen::Vector2d> waypoints);
   explicit Route(std::shared_ptr<const Geometry> geometry);
   std::shared_ptr<const Geometry> geometry_;  // immutable
 };

@@ -26,11 +26,20 @@ Weight WeightAt(double upsilon) {
 
 }  // namespace
 
-BlendedModel::BlendedModel(const VehicleParameters& parameters)
-    : dynamic_(parameters), wheelbase_(parameters.l_f + parameters.l_r), l_r_(parameters.l_r) {}
+BlendedModel::BlendedModel(const VehicleParameters& parameters, const Disturbance& disturbance)
+    : dynamic_(Disturbed(parameters, disturbance)),
+      wheelbase_(parameters.l_f + parameters.l_r),
+      l_r_(parameters.l_r),
+      disturbance_(disturbance) {}
+
+State BlendedModel::Dynamic(const State& fast, const Input& u, const Angles& angles) const {
+  State f = dynamic_.Derivative(fast, Acting(u, disturbance_), angles);
+  f[kNu] += disturbance_.a_y;
+  return f;
+}
 
 State BlendedModel::Derivative(const State& z, const Input& u, const Angles& angles) const {
-  return Blend(z, angles, dynamic_.Derivative(FastEnough(z), u, angles), WeightAt(z[kUpsilon]).w);
+  return Blend(z, angles, Dynamic(FastEnough(z), u, angles), WeightAt(z[kUpsilon]).w);
 }
 
 // `dynamic` is the dynamic model's derivative at FastEnough(z).
@@ -50,11 +59,11 @@ BlendedModel::Linearisation BlendedModel::Linearise(const State& z, const Input&
   const double upsilon = z[kUpsilon], nu = z[kNu];
   const Weight weight = WeightAt(upsilon);
   const State fast = FastEnough(z);
-  const State f = dynamic_.Derivative(fast, u, angles);
+  const State f = Dynamic(fast, u, angles);
   const double tan_delta = angles.sin_delta / angles.cos_delta;
   const double omega_rolling = upsilon * tan_delta / wheelbase_;
 
-  LinearModel d = dynamic_.Jacobian(fast, u, angles);
+  LinearModel d = dynamic_.Jacobian(fast, Acting(u, disturbance_), angles);
   d.A(kX, kPsi) = -upsilon * angles.sin_psi - nu * angles.cos_psi;
   d.A(kY, kPsi) = upsilon * angles.cos_psi - nu * angles.sin_psi;
   const auto blend = [&](int row, double arm) {

@@ -4,8 +4,9 @@
 
 #include <array>
 
-#include "control/vehicle/blended_model.hpp"
+#include "control/vehicle/disturbance.hpp"
 #include "control/vehicle/types.hpp"
+#include "control/vehicle/vehicle_parameters.hpp"
 
 namespace control {
 
@@ -24,14 +25,14 @@ class DelayCompensator {
 
   // Predicts the state `delay` after now from the state `z` measured `age` >= 0 [s] before now. The newest command
   // given is that of the previous cycle.
-  [[nodiscard]] State Predict(const State& z, double age) const;
+  [[nodiscard]] State Predict(const State& z, double age, const Disturbance& disturbance = {}) const;
 
   [[nodiscard]] double delay() const { return delay_; }
 
  private:
   static constexpr std::size_t kMost = 101;  // commands within kLongest
 
-  BlendedModel model_;
+  VehicleParameters vehicle_;
   double t_s_;
   double delay_;
   std::array<Input, kMost> given_;  // ring buffer

@@ -14,7 +14,7 @@ constexpr std::array<double, 4> kB{1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
 State DiscreteModel::Step(const State& z, const Input& u) const {
   State k = State::Zero();
   State next = z;
-  Angles angles(z, u);
+  Angles angles = model_.AnglesAt(z, u);
   for (std::size_t j = 0; j < kA.size(); ++j) {
     const State stage = z + kA[j] * t_s_ * k;
     if (j > 0) angles.Turn(stage);
@@ -31,7 +31,7 @@ AffineModel DiscreteModel::Expand(const State& z, const Input& u) const {
   Square dk_dz = Square::Zero();
   Tall dk_du = Tall::Zero();
   State next = z;
-  Angles angles(z, u);
+  Angles angles = model_.AnglesAt(z, u);
   AffineModel model{.linear = {.A = Square::Identity(), .B = Tall::Zero()}, .c = State::Zero()};
   for (std::size_t j = 0; j < kA.size(); ++j) {
     const double h = kA[j] * t_s_;

@@ -45,10 +45,11 @@ std::array<bus::Message, std::variant_size_v<bus::Message>> RandomMessages(Value
   return {bus::VehiclePose{v.Real(), v.Real()},
           bus::VehicleMotion{v.Real(), v.Real(), v.Real()},
           bus::VehicleFeedback{v.Real(), v.Real(), v.Real()},
-          bus::ObstaclePosition{v.Byte(16), v.Real(), v.Real()},
-          bus::ObstacleShape{v.Byte(16), v.Real(), v.Real(), v.Real(), v.One(bus::PassingSide::kRight)},
-          bus::ObstacleMotion{v.Byte(16), v.Real(), v.Real()},
-          bus::ObstacleList{v.Byte(16)},
+          bus::ObstaclePosition{v.Byte(64), v.Real(), v.Real()},
+          bus::ObstacleShape{v.Byte(64), v.Real(), v.Real(), v.Real(), v.One(bus::PassingSide::kRight),
+                             v.One(bus::Outline::kBox)},
+          bus::ObstacleMotion{v.Byte(64), v.Real(), v.Real(), v.One(bus::ObstacleClass::kPedestrian)},
+          bus::ObstacleList{v.Byte(65)},
           bus::DriverRequest{v.Bool(), v.Bool(), v.Bool()},
           bus::SteeringCommand{v.Bool(), v.One(bus::Mode::kFault), v.Byte(16), v.Byte(64), v.Real()},
           bus::AccelerationCommand{v.Bool(), v.One(bus::Mode::kFault), v.Byte(16), v.Byte(64), v.Real()},
@@ -61,7 +62,8 @@ std::array<bus::Message, std::variant_size_v<bus::Message>> RandomMessages(Value
           bus::ControllerDiagnostics{v.One(bus::ModeCause::kPlanRejected), v.One(bus::Mode::kFault), v.Real(),
                                      v.Byte(7), v.Byte(10), v.Real(), v.Byte(256)},
           bus::ConstraintReport{v.One(bus::ConstraintVerdict::kRejected), v.One(bus::ConstraintName::kTrust),
-                                v.Byte(16), v.Byte(128), v.Real()}};
+                                v.Byte(64), v.Byte(128), v.Real()},
+          bus::DisturbanceEstimate{v.Real(), v.Real(), v.Real(), v.Real(), v.Real()}};
 }
 
 }  // namespace

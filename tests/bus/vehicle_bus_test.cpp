@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "dbc/e2e.hpp"
 #include "dbc/parser.hpp"
@@ -24,14 +25,18 @@ const std::vector<Message>& Samples() {
       VehiclePose{.X = -1234.5678, .Y = 3355.4431},
       VehicleMotion{.upsilon = 13.9, .nu = -0.25, .omega = 0.4},
       VehicleFeedback{.psi = -3.14159, .delta = 0.31, .acceleration = -4.5},
-      ObstaclePosition{.object_id = 3, .X = 55.25, .Y = -7.5},
+      ObstaclePosition{.object_id = 63, .X = 55.25, .Y = -7.5},
       ObstacleShape{.object_id = 15,
-                    .semi_axis_x = 4.5,
+                    .semi_axis_x = 20.0,
                     .semi_axis_y = 1.25,
                     .heading = 1.2,
-                    .passing_side = PassingSide::kRight},
-      ObstacleMotion{.object_id = 1, .velocity_X = -12.5, .velocity_Y = 30.0},
-      ObstacleList{.count = 9},
+                    .passing_side = PassingSide::kRight,
+                    .outline = Outline::kBox},
+      ObstacleMotion{.object_id = 1,
+                     .velocity_X = -12.5,
+                     .velocity_Y = 30.0,
+                     .object_class = ObstacleClass::kPedestrian},
+      ObstacleList{.count = 64},
       DriverRequest{.engage = true, .brake = false, .steering_override = true},
       SteeringCommand{
           .enable = true, .mode = Mode::kActive, .state_counter = 14, .plan_age = 63, .delta = -0.61},
@@ -55,9 +60,14 @@ const std::vector<Message>& Samples() {
                             .plans_refused = 1023},
       ConstraintReport{.verdict = ConstraintVerdict::kRejected,
                        .constraint = ConstraintName::kObstacle,
-                       .index = 15,
+                       .index = 63,
                        .step = 40,
                        .amount = 0.125},
+      DisturbanceEstimate{.steering_offset = -0.0175,
+                          .lateral_acceleration = 1.25,
+                          .longitudinal_acceleration = -0.49,
+                          .stiffness_factor = 0.85,
+                          .grip = 0.635},
   };
   return kSamples;
 }
@@ -123,6 +133,28 @@ TEST(VehicleBus, ValuesComeBackWithinHalfTheirResolution) {
   EXPECT_EQ(back.iterations, status.iterations);
   EXPECT_NEAR(back.solve_time, status.solve_time, 5e-7);
   EXPECT_EQ(back.deadline_misses, status.deadline_misses);
+}
+
+TEST(VehicleBus, ObjectsHaveRoomForTheirSixtyFourIdsAndForALorry) {
+  const VehicleBus bus;
+  RawMessage raw;
+  for (const auto& [id, half_length] : {std::pair{std::uint8_t{0}, 20.0}, {std::uint8_t{63}, 0.05}}) {
+    const ObstacleShape shape{
+        .object_id = id, .semi_axis_x = half_length, .semi_axis_y = 0.05, .outline = Outline::kBox};
+    ASSERT_EQ(bus.Encode(shape, 0, raw), EncodeStatus::kOk);
+    const auto back = std::get<ObstacleShape>(*bus.Decode(raw.id, raw.Payload()));
+    EXPECT_EQ(back.object_id, id);
+    EXPECT_NEAR(back.semi_axis_x, half_length, 1.25e-3);
+    EXPECT_EQ(back.outline, Outline::kBox);
+  }
+  for (int i = 0; i <= static_cast<int>(ObstacleClass::kPedestrian); ++i) {
+    const auto object_class = static_cast<ObstacleClass>(i);
+    ASSERT_EQ(bus.Encode(ObstacleMotion{.object_class = object_class}, 0, raw), EncodeStatus::kOk);
+    EXPECT_EQ(std::get<ObstacleMotion>(*bus.Decode(raw.id, raw.Payload())).object_class, object_class);
+  }
+  ASSERT_EQ(bus.Encode(ObstacleList{.count = 64}, 0, raw), EncodeStatus::kOk);
+  EXPECT_EQ(std::get<ObstacleList>(*bus.Decode(raw.id, raw.Payload())).count, 64);
+  EXPECT_EQ(bus.Encode(ObstacleList{.count = 65}, 0, raw), EncodeStatus::kSaturated);
 }
 
 TEST(VehicleBus, PiIsInsideTheRangeOfAnAngle) {
@@ -258,7 +290,7 @@ TEST(VehicleBus, OwnFramesAreInRangeUntilOneOfTheirValuesIsNot) {
 
 TEST(VehicleBus, MessagesAreListedWithIdPeriodAndDistinctDataIds) {
   const VehicleBus bus;
-  ASSERT_EQ(bus.messages().size(), 13u);
+  ASSERT_EQ(bus.messages().size(), 14u);
   std::set<std::uint16_t> data_ids;
   for (const MessageInfo& info : bus.messages()) {
     EXPECT_EQ(info.length, 8);
@@ -311,7 +343,7 @@ TEST(VehicleBus, ForeignDbcWhoseSignalsOverlapIsRefusedByName) {
               HasSubstr("signal Delta of message SteeringCommand overlaps"));
   EXPECT_THAT(ErrorOf(Replaced("SG_ StateCounter : 12|4@1+", "SG_ StateCounter : 11|4@1+")),
               HasSubstr("signal StateCounter of message SteeringCommand overlaps"));  // the counter
-  EXPECT_THAT(ErrorOf(Replaced("SG_ VelocityX m2 : 18|", "SG_ VelocityX m2 : 13|")),
+  EXPECT_THAT(ErrorOf(Replaced("SG_ VelocityX m2 : 20|", "SG_ VelocityX m2 : 13|")),
               HasSubstr("signal VelocityX of message ObstacleObject overlaps"));  // the multiplexor
 }
 

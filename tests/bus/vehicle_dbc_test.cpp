@@ -73,8 +73,9 @@ TEST_F(VehicleDbc, EveryRangeIsHeldByTheBits) {
 
 TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   for (const dbc::MessageDefinition& message : database_.messages) {
-    for (const char* name : {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Part", "Page", "Cause",
-                             "PreviousMode", "FaultyMessage", "FrameFault", "Verdict", "Constraint"}) {
+    for (const char* name :
+         {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Shape", "Class", "Part", "Page", "Cause",
+          "PreviousMode", "FaultyMessage", "FrameFault", "Verdict", "Constraint"}) {
       const dbc::Signal* signal = message.Find(name);
       if (signal == nullptr) continue;
       EXPECT_EQ(signal->values.size(), static_cast<std::size_t>(signal->max) + 1) << name;
@@ -88,6 +89,12 @@ TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   EXPECT_EQ(cause->values.at(static_cast<int>(ModeCause::kReleased)), "RequestWithdrawn");
   EXPECT_EQ(cause->values.at(static_cast<int>(ModeCause::kSilent)), "Silent");
   EXPECT_EQ(cause->max, static_cast<double>(ModeCause::kPlanRejected));
+  const dbc::Signal* object_class = database_.Find("ObstacleObject")->Find("Class");
+  EXPECT_EQ(object_class->values.at(static_cast<int>(ObstacleClass::kCycle)), "Cycle");
+  EXPECT_EQ(object_class->max, static_cast<double>(ObstacleClass::kPedestrian));
+  const dbc::Signal* shape = database_.Find("ObstacleObject")->Find("Shape");
+  EXPECT_EQ(shape->values.at(static_cast<int>(Outline::kBox)), "Box");
+  EXPECT_EQ(shape->max, static_cast<double>(Outline::kBox));
   const dbc::Signal* constraint = database_.Find("ConstraintReport")->Find("Constraint");
   EXPECT_EQ(constraint->max, static_cast<double>(ConstraintName::kTrust));
 }

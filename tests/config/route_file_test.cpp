@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "config/toml_table.hpp"
@@ -51,9 +52,23 @@ class RouteFileTest : public testing::Test {
     return ErrorOf("[route]\nspeed = 10\nwaypoints = \"points.csv\"\n[road]\nleft = 4\nright = 4\n");
   }
 
+  // The route through the waypoints of a file without speeds, at 10 m/s; `more`: further lines of the route file.
+  [[nodiscard]] RouteFile LoadCsv(const std::string& csv, const std::string& more = "") const {
+    Write("points.csv", csv);
+    return Load("[route]\nspeed = 10\nwaypoints = \"points.csv\"\n" + more);
+  }
+  // The error in a file of waypoints that have widths.
+  std::string WidthErrorOf(const std::string& csv) const {
+    Write("points.csv", csv);
+    return ErrorOf("[route]\nspeed = 10\nwaypoints = \"points.csv\"\n");
+  }
+
   std::filesystem::path folder_;
 };
 
+const std::string kHeaders =
+    "\"X,Y\", \"X,Y,speed\", \"X,Y,left,right\", \"X,Y,left,right,speed\" or \"# "
+    "x_m,y_m,w_tr_right_m,w_tr_left_m\"";
 const std::string kHead =
     "[road]\nleft = 4\nright = 1\n[route]\nspeed = 12\nstart = {X = 0, Y = 0, psi = 0}\n";
 
@@ -76,8 +91,10 @@ TEST_F(RouteFileTest, PiecesFollowOneAnother) {
 
 TEST_F(RouteFileTest, RightEdgeIsNegativeInside) {
   const RouteFile file = Load(kHead + "pieces = [{kind = \"straight\", length = 10}]\n");
-  EXPECT_EQ(file.road.left, 4.0);
-  EXPECT_EQ(file.road.right, -1.0);
+  for (const double s : {-1.0, 0.0, 3.7, 10.0, 11.0}) {
+    EXPECT_EQ(file.road.At(s).left, 4.0);
+    EXPECT_EQ(file.road.At(s).right, -1.0);
+  }
 }
 
 TEST_F(RouteFileTest, WaypointsAreReadFromBesideTheRouteFile) {
@@ -120,9 +137,141 @@ TEST_F(RouteFileTest, WrongWaypointNamesFileLineColumnAndValue) {
   EXPECT_EQ(CsvErrorOf("X,Y\n2e6,1\n"),
             "points.csv:2: column 'X' = 2000000 is outside [-1000000, 1000000] m");
   EXPECT_EQ(CsvErrorOf("X,Y\n0,1,2\n"), "points.csv:2: has 3 columns, must be X,Y");
-  EXPECT_EQ(CsvErrorOf("x;y\n0,1\n"), "points.csv:1: \"x;y\" must be the header \"X,Y\"");
+  EXPECT_EQ(CsvErrorOf("x;y\n0,1\n"), "points.csv:1: \"x;y\" must be the header " + kHeaders);
   EXPECT_EQ(CsvErrorOf("X,Y\n0,1\n0,1\n"), "points.csv:3: waypoint 0,1 repeats its predecessor");
   EXPECT_EQ(CsvErrorOf("X,Y\n0,1\n"), "points.csv: has 1 waypoints, must be at least 2");
+}
+
+TEST_F(RouteFileTest, EdgesGoLinearlyToEachPiecesOwn) {
+  const RouteFile file = Load(kHead +
+                              "pieces = [\n"
+                              "  {kind = \"straight\", length = 10},\n"
+                              "  {kind = \"arc\", length = 20, curvature = 0.01, left = 2},\n"
+                              "  {kind = \"straight\", length = 30, right = 4, speed = 9},\n"
+                              "  {kind = \"straight\", length = 40},\n"
+                              "]\n");
+  const auto expect = [&](double s, double left, double right) {
+    EXPECT_NEAR(file.road.At(s).left, left, 1e-12) << s;
+    EXPECT_NEAR(file.road.At(s).right, right, 1e-12) << s;
+  };
+  expect(0.0, 4.0, -1.0);
+  expect(10.0, 4.0, -1.0);
+  expect(15.0, 3.5, -1.0);
+  expect(30.0, 2.0, -1.0);
+  expect(45.0, 2.0, -2.5);
+  expect(60.0, 2.0, -4.0);
+  expect(100.0, 2.0, -4.0);
+}
+
+TEST_F(RouteFileTest, WrongWidthOfAPieceNamesFileLineKeyAndRange) {
+  EXPECT_EQ(ErrorOf(kHead + "pieces = [\n{kind = \"straight\", length = 3, left = 0},\n]\n"),
+            "route.toml:8: key 'route.pieces[0].left' = 0 is outside [0.1, 100] m");
+  EXPECT_EQ(ErrorOf(kHead + "pieces = [\n{kind = \"straight\", length = 3, right = -2},\n]\n"),
+            "route.toml:8: key 'route.pieces[0].right' = -2 is outside [0.1, 100] m");
+}
+
+TEST_F(RouteFileTest, WaypointsMayHaveEdges) {
+  const RouteFile file = LoadCsv("X,Y,left,right\n0,0,4,3\n30,0,2,3\n50,0,2,1\n");
+  EXPECT_NEAR(file.road.At(15.0).left, 3.0, 1e-9);
+  EXPECT_NEAR(file.road.At(15.0).right, -3.0, 1e-9);
+  EXPECT_NEAR(file.road.At(40.0).left, 2.0, 1e-9);
+  EXPECT_NEAR(file.road.At(40.0).right, -2.0, 1e-9);
+  EXPECT_NEAR(file.route.At(40.0).speed, 10.0, 1e-12);
+}
+
+TEST_F(RouteFileTest, EdgesOfWaypointsOnABendAreWhereTheWaypointsAre) {
+  const RouteFile file = LoadCsv("X,Y,left,right\n0,0,4,3\n30,20,2,3\n50,-20,5,1\n60,0,5,5\n");
+  const Eigen::Vector2d waypoint(50.0, -20.0);
+  const double s = file.route.Project(waypoint).s;
+  EXPECT_GT(s, 82.0) << "the way is longer than the chords, 80.8 m";
+  EXPECT_NEAR(file.road.At(s).left, 5.0, 1e-9);
+  EXPECT_NEAR(file.road.At(s).right, -1.0, 1e-9);
+}
+
+TEST_F(RouteFileTest, WaypointsMayHaveSpeeds) {
+  Write("points.csv", "X,Y,speed\n0,0,12\n30,0,6\n50,0,8\n");
+  const std::string road = "[road]\nleft = 4\nright = 3\n", route = "[route]\nwaypoints = \"points.csv\"\n";
+  const RouteFile file = Load(road + route);
+  EXPECT_NEAR(file.route.At(15.0).speed, 9.0, 1e-9);
+  EXPECT_NEAR(file.route.At(40.0).speed, 7.0, 1e-9);
+  EXPECT_EQ(file.road.At(40.0).right, -3.0);
+  EXPECT_EQ(ErrorOf(road + route + "speed = 10\n"),
+            "route.toml:6: key 'route.speed' = 10 must not be given along with waypoints that have speeds");
+  Write("points.csv", "X,Y,left,right,speed\n0,0,4,3,12\n30,0,2,3,6\n");
+  const RouteFile both = Load(route);
+  EXPECT_NEAR(both.route.At(15.0).speed, 9.0, 1e-9);
+  EXPECT_NEAR(both.road.At(15.0).left, 3.0, 1e-9);
+  EXPECT_NEAR(both.road.At(15.0).right, -3.0, 1e-9);
+}
+
+TEST_F(RouteFileTest, SpeedAndRoadAreGivenOnceAndOnlyOnce) {
+  const std::string route = "[route]\nspeed = 10\nwaypoints = \"points.csv\"\n";
+  Write("points.csv", "X,Y,left,right\n0,0,4,3\n30,0,2,3\n");
+  EXPECT_EQ(ErrorOf(route + "[road]\nleft = 4\nright = 3\n"),
+            "route.toml:4: key 'road' must not be given along with waypoints that have widths");
+  EXPECT_THAT(ErrorOf("[route]\nwaypoints = \"points.csv\"\n"), HasSubstr("key 'route.speed' is missing"));
+  Write("points.csv", "X,Y\n0,0\n30,0\n");
+  EXPECT_THAT(ErrorOf(route), HasSubstr("key 'road.left' is missing"));
+}
+
+TEST_F(RouteFileTest, WrongWidthOrSpeedOfAWaypointNamesFileLineColumnAndValue) {
+  EXPECT_EQ(WidthErrorOf("X,Y,left,right\n0,0,4,3\n1,0,-2,3\n"),
+            "points.csv:3: column 'left' = -2 is outside [0.1, 100] m");
+  EXPECT_EQ(WidthErrorOf("X,Y,left,right\n0,0,4,0\n"),
+            "points.csv:2: column 'right' = 0 is outside [0.1, 100] m");
+  EXPECT_EQ(WidthErrorOf("X,Y,left,right,speed\n0,0,4,3,0\n"),
+            "points.csv:2: column 'speed' = 0 is outside [0.1, 100] m/s");
+  EXPECT_EQ(WidthErrorOf("X,Y,left,right\n0,0,4,wide\n"),
+            "points.csv:2: column 'right' = \"wide\" is not a number");
+  EXPECT_EQ(WidthErrorOf("X,Y,left,right\n0,0,4\n"), "points.csv:2: has 3 columns, must be X,Y,left,right");
+  EXPECT_EQ(WidthErrorOf("X,Y,right,left\n0,0,4,3\n"),
+            "points.csv:1: \"X,Y,right,left\" must be the header " + kHeaders);
+  EXPECT_EQ(WidthErrorOf("# x_m,y_m,w_tr_right_m,w_tr_left_m\n0,0,4,3\n5,0,4,-3\n"),
+            "points.csv:3: column 'w_tr_left_m' = -3 is outside [0.1, 100] m");
+  EXPECT_EQ(WidthErrorOf("# x_m,y_m,w_tr_right_m,w_tr_left_m\n0,0,4\n"),
+            "points.csv:2: has 3 columns, must be x_m,y_m,w_tr_right_m,w_tr_left_m");
+  EXPECT_EQ(WidthErrorOf("# x_m,y_m\n0,0,4,3\n"), "points.csv:2: \"0,0,4,3\" must be the header " + kHeaders);
+  EXPECT_EQ(WidthErrorOf("# x_m,y_m,w_tr_right_m,w_tr_left_m\n"),
+            "points.csv: has 0 waypoints, must be at least 2");
+}
+
+// A race track of 40 points on a circle of 100 m, 15.7 m apart; the width on its left is 3 m at the first point, 5 m after.
+std::string RaceTrack(int points) {
+  std::string text = "# A track\n# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
+  for (int i = 0; i < points; ++i) {
+    const double angle = i * 2.0 * std::numbers::pi / 40.0;
+    text += std::to_string(100.0 * std::cos(angle)) + "," + std::to_string(100.0 * std::sin(angle)) +
+            ",4.5," + (i == 0 ? "3" : "5") + "\n# a comment\n";
+  }
+  return text;
+}
+
+TEST_F(RouteFileTest, RaceTrackIsReadAsItIsAndEndsWhereItBegins) {
+  const RouteFile file = LoadCsv(RaceTrack(40));
+  EXPECT_NEAR(file.route.length(), 200.0 * std::numbers::pi, 0.1);
+  const control::RoutePoint start = file.route.At(0.0), end = file.route.At(file.route.length());
+  EXPECT_NEAR(start.X, end.X, 1e-9);
+  EXPECT_NEAR(start.Y, end.Y, 1e-9);
+  EXPECT_NEAR(end.psi - start.psi, 2.0 * std::numbers::pi, 0.1) << "a natural spline is straight at its ends";
+  EXPECT_NEAR(file.road.At(0.0).left, 3.0, 1e-9);
+  EXPECT_NEAR(file.road.At(100.0).left, 5.0, 1e-9);
+  EXPECT_NEAR(file.road.At(100.0).right, -4.5, 1e-9);
+  EXPECT_NEAR(file.road.At(file.route.length()).left, 3.0, 1e-9);
+}
+
+TEST_F(RouteFileTest, RaceTrackWhoseEndsAreMoreThanThreeSpacingsApartIsOpen) {
+  const double spacing = 5.0 * std::numbers::pi;
+  EXPECT_NEAR(LoadCsv(RaceTrack(38)).route.length(), 200.0 * std::numbers::pi, 1.0)
+      << "3 spacings, less the sagitta";
+  EXPECT_NEAR(LoadCsv(RaceTrack(37)).route.length(), 36.0 * spacing, 1.0);
+  EXPECT_NEAR(LoadCsv(RaceTrack(41)).route.length(), 40.0 * spacing, 1.0) << "its first point is repeated";
+  EXPECT_NEAR(LoadCsv(RaceTrack(4)).route.length(), 3.0 * spacing, 0.5) << "too short to be a circuit";
+}
+
+TEST_F(RouteFileTest, OtherWaypointsAreNeverClosed) {
+  const std::string square = "X,Y,left,right\n0,0,4,4\n9,0,4,4\n18,0,4,4\n18,9,4,4\n9,9,4,4\n0,9,4,4\n";
+  const control::Route route = LoadCsv(square).route;
+  EXPECT_NEAR(route.At(route.length()).Y, 9.0, 1e-9);
 }
 
 TEST_F(RouteFileTest, RouteThatCannotBeBuiltIsNamedWithFileLineAndPiece) {
@@ -153,6 +302,8 @@ TEST_F(RouteFileTest, ExampleOfTheHeaderIsARouteFile) {
   const RouteFile file = Load(test_support::ExampleOf("config/route_file.hpp"));
   EXPECT_NEAR(file.route.length(), 310.0, 1e-9);
   EXPECT_NEAR(file.route.At(170.0).curvature, file.route.At(230.0).curvature, 1e-12);
+  EXPECT_NEAR(file.road.At(285.0).right, -4.0, 1e-9);
+  EXPECT_NEAR(file.road.At(310.0).right, -3.0, 1e-9);
 }
 
 TEST_F(RouteFileTest, MissingWaypointFileIsNamed) {

@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
                             [](const loop::Config& of, const loop::Road& road) {
                               auto faulty = std::make_unique<FaultyController>(of, FaultFromEnvironment());
                               return std::make_unique<control::TimedController>(
-                                  std::move(faulty), road.reference, road.profile.road());
+                                  std::move(faulty), road.reference, road.profile.edges());
                             });
     lpvmpcd::OpenLog(config.log_level);
     lpvmpcd::Service service(config.service, assembly.loop(), [] {});

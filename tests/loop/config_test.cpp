@@ -158,6 +158,16 @@ TEST_F(ConfigTest, LpvAffineSetsOffFromStandstillAndThePapersControllersDoNot) {
   EXPECT_EQ(written.loop.engage_min_speed, 1.5);
 }
 
+TEST_F(ConfigTest, LpvAffineIsOffsetFreeUnlessSwitchedOffAndThePapersControllersAreNot) {
+  Config config = Load(kRoute);
+  EXPECT_TRUE(config.loop.offset_free);
+  SelectController(config, "lpv");
+  EXPECT_FALSE(config.loop.offset_free);
+  SelectController(config, "nmpc-affine");
+  EXPECT_TRUE(config.loop.offset_free);
+  EXPECT_FALSE(Load(kRoute + "[controller]\noffset_free = false\n").loop.offset_free);
+}
+
 TEST_F(ConfigTest, TheVehiclesRectangleIsGivenByItsEndsAndItsWidth) {
   const Config config = Load(kRoute + "[vehicle]\nfront = 2.5\nrear = 1.5\nwidth = 2\n");
   EXPECT_EQ(config.affine.footprint.front, 2.5);

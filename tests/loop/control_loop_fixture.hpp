@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 class ControlLoopTest : public testing::Test {
  protected:
-  static constexpr std::size_t kWithoutHorizon = 6;  // frames of a cycle
+  static constexpr std::size_t kWithoutHorizon = 7;  // frames of a cycle
   struct Sent {
     bus::SteeringCommand steering;
     bus::AccelerationCommand acceleration;

@@ -59,7 +59,7 @@ class DrivingLoopTest : public testing::Test {
   }
   // Puts an obstacle `ahead` [m] of the vehicle's position in the next period.
   void PutObstacle(double ahead) {
-    vehicle_.obstacles = {{.object_id = 3, .X = vehicle_.pose.X + kPeriod * kSpeed + ahead, .Y = 0.0}};
+    vehicle_.obstacles = {{.object_id = 63, .X = vehicle_.pose.X + kPeriod * kSpeed + ahead, .Y = 0.0}};
   }
   // Makes the next plans go straight on.
   void PlanStraight() { controller_.Plan({0.0, 0.0}); }
@@ -90,7 +90,7 @@ TEST_F(DrivingLoopTest, PlanIntoAnObstacleDoesNotEngageAndTheBusTellsWhich) {
   EXPECT_EQ(controller_.steps, 1);
   EXPECT_EQ(sent.constraint.verdict, bus::ConstraintVerdict::kRejected);
   EXPECT_EQ(sent.constraint.constraint, bus::ConstraintName::kObstacle);
-  EXPECT_EQ(sent.constraint.index, 3);
+  EXPECT_EQ(sent.constraint.index, 63);
   EXPECT_EQ(sent.constraint.step, 3);
   EXPECT_GT(sent.constraint.amount, 0.0);
 }

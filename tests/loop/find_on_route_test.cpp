@@ -1,5 +1,6 @@
 #include "loop/find_on_route.hpp"
 
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -41,6 +42,23 @@ TEST_F(FindOnRouteTest, NoneOffTheRoadBeforeItBehindItOrAcrossIt) {
   EXPECT_FALSE(FindOnRoute(reference, road_, At(-1.0, 0.0, 0.0), 0.5));
   EXPECT_FALSE(FindOnRoute(reference, road_, At(60.0, 0.0, 0.0), 0.5));
   EXPECT_FALSE(FindOnRoute(reference, road_, At(10.0, 0.0, 0.6), 0.5));
+}
+
+TEST_F(FindOnRouteTest, WidthOfTheRoadIsThatBesideTheVehicle) {
+  // The points are 0.5 m apart; the left edge comes nearer by 0.1 m per metre from x = 20 m to 40 m.
+  const std::array samples{control::RoadSample{.s = 20.0, .bounds = {.left = 3.0, .right = -2.0}},
+                           control::RoadSample{.s = 40.0, .bounds = {.left = 1.0, .right = -2.0}}};
+  const control::RoadEdges edges(samples);
+  const control::TimeReference reference(points_, 0.05);
+  const auto found = [&](double X, double Y) {
+    return FindOnRoute(reference, edges, At(X, Y, 0.0), 0.5).has_value();
+  };
+  EXPECT_TRUE(found(10.0, 2.9));
+  EXPECT_TRUE(found(30.1, 1.98));
+  EXPECT_FALSE(found(30.1, 1.995)) << "at the point 0.1 m behind, the edge is still at 2 m";
+  EXPECT_FALSE(found(45.0, 1.1));
+  EXPECT_TRUE(found(45.0, 0.9));
+  EXPECT_TRUE(found(45.0, -1.9));
 }
 
 TEST_F(FindOnRouteTest, OfTwoLegsOnlyTheOneAlongWhichTheVehicleHeadsIsFound) {

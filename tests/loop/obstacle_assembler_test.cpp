@@ -13,8 +13,10 @@ void Report(ObstacleAssembler& assembler, std::uint8_t id, double X) {
                                       .semi_axis_x = 2.0,
                                       .semi_axis_y = 1.0,
                                       .heading = 0.3,
-                                      .passing_side = bus::PassingSide::kRight});
-  assembler.Update(bus::ObstacleMotion{.object_id = id, .velocity_X = 5.0, .velocity_Y = 6.0});
+                                      .passing_side = bus::PassingSide::kRight,
+                                      .outline = bus::Outline::kBox});
+  assembler.Update(bus::ObstacleMotion{
+      .object_id = id, .velocity_X = 5.0, .velocity_Y = 6.0, .object_class = bus::ObstacleClass::kCycle});
 }
 
 TEST(ObstacleAssembler, ListTakesOverAllObjectsSinceTheLastOne) {
@@ -35,11 +37,25 @@ TEST(ObstacleAssembler, ListTakesOverAllObjectsSinceTheLastOne) {
   EXPECT_EQ(first.velocity_X, 5.0);
   EXPECT_EQ(first.velocity_Y, 6.0);
   EXPECT_EQ(first.side, control::PassingSide::kRight);
+  EXPECT_EQ(first.shape, control::ObstacleShape::kBox);
+  EXPECT_EQ(first.object_class, control::ObstacleClass::kCycle);
   EXPECT_EQ(assembler.obstacles()[1].id, 2);
 
   EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 0}, 2s));  // all gone
   EXPECT_TRUE(assembler.obstacles().empty());
   EXPECT_EQ(assembler.Age(3s), 1s);
+}
+
+TEST(ObstacleAssembler, ShapeAndClassOfTheBusAreTheControllers) {
+  using bus::ObstacleClass;
+  using Class = control::ObstacleClass;
+  EXPECT_EQ(ToControl(bus::Outline::kEllipse), control::ObstacleShape::kEllipse);
+  EXPECT_EQ(ToControl(bus::Outline::kBox), control::ObstacleShape::kBox);
+  EXPECT_EQ(ToControl(ObstacleClass::kUnknown), Class::kUnknown);
+  EXPECT_EQ(ToControl(ObstacleClass::kStatic), Class::kStatic);
+  EXPECT_EQ(ToControl(ObstacleClass::kVehicle), Class::kVehicle);
+  EXPECT_EQ(ToControl(ObstacleClass::kCycle), Class::kCycle);
+  EXPECT_EQ(ToControl(ObstacleClass::kPedestrian), Class::kPedestrian);
 }
 
 TEST(ObstacleAssembler, ListThatDoesNotFitLeavesTheOldObstacles) {
@@ -74,6 +90,14 @@ TEST(ObstacleAssembler, ObjectWithoutExtentIsIncomplete) {
   assembler.Update(bus::ObstacleShape{.object_id = 1, .semi_axis_x = 0.0, .semi_axis_y = 1.0});
   assembler.Update(bus::ObstacleMotion{.object_id = 1});
   EXPECT_FALSE(assembler.Update(bus::ObstacleList{.count = 1}, 1s));
+}
+
+TEST(ObstacleAssembler, HoldsAllObjectsThatAListCanCount) {
+  ObstacleAssembler assembler;
+  for (std::uint8_t id = 0; id < 64; ++id) Report(assembler, id, id);
+  EXPECT_TRUE(assembler.Update(bus::ObstacleList{.count = 64}, 1s));
+  ASSERT_EQ(assembler.obstacles().size(), 64U);
+  EXPECT_EQ(assembler.obstacles()[63].X, 63.0);
 }
 
 TEST(ObstacleAssembler, MoreObjectsThanItHoldsAreRefusedAsAWhole) {

@@ -24,6 +24,7 @@ struct SlowController : control::Controller {
   const control::Plan& Step(const control::ControllerInput& input) override {
     ++steps;
     z = input.z;
+    disturbance = input.disturbance;
     obstacles.assign(input.obstacles.begin(), input.obstacles.end());
     *clock += takes;
     time_left = (*input.time_left)();
@@ -39,6 +40,7 @@ struct SlowController : control::Controller {
   control::Plan plan;
   int steps = 0, resets = 0;
   control::State z;
+  control::Disturbance disturbance;
   std::vector<control::Obstacle> obstacles;
   bool time_left = false;
 };
@@ -81,6 +83,29 @@ TEST_F(PlannerTest, PlanBeginsWhereVehicleAndObstaclesAreWhenTheCommandActs) {
   for (const double speed : {10.0 + 0.07 - 2.0 * 0.05, 10.0 + 0.02 - 2.0 * 0.1}) {
     ASSERT_TRUE(Plan(PlanRequest::kNext, true, {0.0, -2.0}).accepted);
     EXPECT_NEAR(controller_.z[control::kUpsilon], speed, 1e-9);
+  }
+}
+
+// A vehicle that rolls downhill, seen while the driver still drives.
+TEST_F(PlannerTest, DisturbanceThatTheStatesShowIsToldToTheControllerAndActsDuringTheDelay) {
+  for (const bool offset_free : {true, false}) {
+    settings_.offset_free = offset_free;
+    Planner planner(
+        settings_, controller_, [this] { return clock_; }, &check_);
+    known_.state.z << 10.0, 0.0, 10.0, 0.0, 0.0, 0.0;
+    for (int i = 0; i < 60; ++i) {
+      ++known_.step;
+      known_.state.z[control::kX] += 0.05 * known_.state.z[control::kUpsilon];
+      known_.state.z[control::kUpsilon] += 0.05 * 0.5;
+      planner.StartStopwatch();
+      const bool first = i == 59;
+      (void)planner.Plan(first ? PlanRequest::kFirst : PlanRequest::kNone, known_, {.s = 10.0}, false,
+                         Input::Zero());
+    }
+    EXPECT_NEAR(controller_.disturbance.a_x, offset_free ? 0.5 : 0.0, 0.05);
+    EXPECT_EQ(planner.disturbance().a_x, controller_.disturbance.a_x);
+    EXPECT_NEAR(controller_.z[control::kUpsilon] - known_.state.z[control::kUpsilon],
+                offset_free ? 0.05 : 0.0, 5e-3);
   }
 }
 

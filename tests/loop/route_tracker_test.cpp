@@ -23,7 +23,7 @@ class RouteTrackerTest : public testing::Test {
   control::RoutePlace Track(const Snapshot& known) { return tracker_.Advance(known, true, Input::Zero()); }
 
   control::TimeReference reference_{StraightRoute(), 0.05};
-  RouteTracker tracker_{{}, reference_, {.left = 4.0, .right = -4.0}};
+  RouteTracker tracker_{{}, reference_, control::RoadBounds{.left = 4.0, .right = -4.0}};
 };
 
 TEST_F(RouteTrackerTest, DisabledThePlaceIsSearchedForInEveryCycle) {

@@ -172,6 +172,9 @@ TEST_F(MessageMonitorTest, ValueBeyondItsRangeIsRefused) {
   EXPECT_TRUE(Accepts(With(bus::MakeFrame(bus_, bus::VehicleFeedback{}, 5), "Psi", 125664)));  // 3.1416
   EXPECT_EQ(Refused(With(bus::MakeFrame(bus_, bus::ObstacleShape{}, 0), "PassingSide", 3)),
             RxFault::kOutOfRange);
+  EXPECT_EQ(Refused(With(bus::MakeFrame(bus_, bus::ObstacleMotion{}, 1), "Class", 5)), RxFault::kOutOfRange);
+  EXPECT_TRUE(Accepts(bus::MakeFrame(bus_, bus::ObstacleList{.count = 64}, 0)));
+  EXPECT_EQ(Refused(With(bus::MakeFrame(bus_, bus::ObstacleList{}, 1), "Count", 65)), RxFault::kOutOfRange);
 }
 
 TEST_F(MessageMonitorTest, ValueThatIsNotFiniteIsRefused) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "bus/vehicle_bus.hpp"
@@ -38,8 +39,8 @@ class FakeDaemon {
     hint_ = place.s;
     const control::RoutePoint ahead = route_.At(place.s + 3.0);
     const double heading_error = std::remainder(feedback.psi - route_.At(place.s).psi, 2.0 * M_PI);
-    const double delta =
-        std::clamp(2.6 * ahead.curvature - 0.1 * place.lateral - 0.8 * heading_error, -0.5, 0.5);
+    const double delta = steering.value_or(
+        std::clamp(2.6 * ahead.curvature - 0.1 * place.lateral - 0.8 * heading_error, -0.5, 0.5));
     const bool enable = mode == bus::Mode::kActive;
     std::vector<can::Frame> frames{
         Encode(bus::SteeringCommand{
@@ -48,7 +49,7 @@ class FakeDaemon {
                                         .mode = mode,
                                         .state_counter = state_counter,
                                         .plan_age = 0,
-                                        .acceleration = 0.0}),
+                                        .acceleration = acceleration}),
         Status()};
     if (constraint) frames.push_back(Encode(*constraint));
     return frames;
@@ -57,7 +58,7 @@ class FakeDaemon {
   [[nodiscard]] can::Frame Status() {
     ++counter_;
     return Encode(bus::ControllerStatus{.mode = mode,
-                                        .fault_code = bus::FaultCode::kNone,
+                                        .fault_code = fault_code,
                                         .solver_status = solver_status,
                                         .iterations = 5,
                                         .solve_time = 1e-6 * static_cast<double>(counter_ % 100 + 1),
@@ -77,6 +78,9 @@ class FakeDaemon {
   bus::Mode mode = bus::Mode::kStandby;
   bus::SolverStatus solver_status = bus::SolverStatus::kSolved;
   std::uint16_t deadline_misses = 0;
+  bus::FaultCode fault_code = bus::FaultCode::kNone;
+  double acceleration = 0.0;                        // commanded [m/s²]
+  std::optional<double> steering;                   // commanded instead of following the route [rad]
   std::optional<bus::ConstraintReport> constraint;  // no report is sent if empty
 
  private:

@@ -122,6 +122,78 @@ TEST(FootprintDistance, KnownPlaces) {
   EXPECT_NEAR(FootprintDistance(ellipse, kCar, {0.0, 0.0}, 0.4), -1.0, 1e-12);
 }
 
+// Signed distance of a point to a box: inside, minus the distance to the nearest side.
+double BoxDistance(const Obstacle& box, const Vector2d& point) {
+  const Vector2d local = Eigen::Rotation2Dd(-box.heading) * (point - Vector2d(box.X, box.Y));
+  const Vector2d beyond = local.cwiseAbs() - Vector2d(box.r_x, box.r_y);
+  return beyond.maxCoeff() < 0.0 ? beyond.maxCoeff() : beyond.cwiseMax(0.0).norm();
+}
+
+// Least distance of points sampled all over the rectangle.
+double LeastToBox(const Placed& placed, int per_side) {
+  double least = 1e9;
+  const control::Footprint& f = placed.footprint;
+  for (int i = 0; i <= per_side; ++i) {
+    for (int k = 0; k <= per_side; ++k) {
+      const Vector2d body(-f.rear + (f.front + f.rear) * i / per_side,
+                          f.half_width * (2.0 * k / per_side - 1.0));
+      least = std::min(least, BoxDistance(placed.obstacle, placed.InMap(body)));
+    }
+  }
+  return least;
+}
+
+TEST(FootprintDistance, ToABoxIsThatOfTheNearestPointsAndNegativeExactlyInContact) {
+  control::testing::Random random(5);
+  int contacts = 0;
+  for (int i = 0; i < 400; ++i) {
+    Placed placed = Anywhere(random);
+    placed.obstacle.shape = control::ObstacleShape::kBox;
+    const double least = LeastToBox(placed, 200);
+    if (std::abs(least) < 0.02) continue;  // the points may miss a touch
+    EXPECT_EQ(placed.Distance() < 0.0, least < 0.0) << i;
+    contacts += static_cast<int>(least < 0.0);
+    if (least < 0.0) continue;
+    EXPECT_LE(placed.Distance(), least + 1e-9) << i;
+    EXPECT_NEAR(placed.Distance(), least, 0.03) << i;  // points are at most 3 cm apart
+  }
+  EXPECT_GT(contacts, 40);
+  EXPECT_LT(contacts, 360);
+}
+
+TEST(FootprintDistance, InABoxItIsTheLeastShiftThatSeparates) {
+  control::testing::Random random(6);
+  int contacts = 0;
+  for (int i = 0; i < 400; ++i) {
+    Placed placed = Anywhere(random);
+    placed.obstacle.shape = control::ObstacleShape::kBox;
+    const double depth = -placed.Distance();
+    if (depth < 0.01) continue;
+    ++contacts;
+    const Vector2d start = placed.position;
+    bool separated = false;
+    for (int k = 0; k < 3600; ++k) {
+      const double angle = k * std::numbers::pi / 1800;
+      placed.position = start + 0.999 * depth * Vector2d(std::cos(angle), std::sin(angle));
+      EXPECT_LT(placed.Distance(), 0.0) << i;
+      placed.position = start + 1.001 * depth * Vector2d(std::cos(angle), std::sin(angle));
+      separated = separated || placed.Distance() >= 0.0;
+    }
+    EXPECT_TRUE(separated) << i;
+  }
+  EXPECT_GT(contacts, 20);
+}
+
+TEST(FootprintDistance, KnownPlacesAtABox) {
+  const Obstacle lorry{
+      .r_x = 8.0, .r_y = 1.25, .heading = std::numbers::pi / 2.0, .shape = control::ObstacleShape::kBox};
+  EXPECT_NEAR(FootprintDistance(lorry, kCar, {-10.0, 7.5}, 0.0), 10.0 - 1.95 - 1.25, 1e-12);
+  // Corner to corner, 3 m along and 4 m across.
+  EXPECT_NEAR(FootprintDistance(lorry, kCar, {-1.25 - 3.0 - 1.95, 8.0 + 4.0 + 0.9}, 0.0), 5.0, 1e-12);
+  EXPECT_NEAR(FootprintDistance(lorry, kCar, {-1.25 - 1.95 + 0.1, 0.0}, 0.0), -0.1, 1e-12);
+  EXPECT_NEAR(FootprintDistance(lorry, {}, {0.25, 1.0}, 0.3), -1.0, 1e-12);
+}
+
 TEST(FootprintDistance, OfAPointIsThatOfThePoint) {
   control::testing::Random random(4);
   for (int i = 0; i < 200; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/vehicle/blended_model.hpp"
 #include "control/vehicle/single_track.hpp"
 #include "gtest/gtest.h"
 
@@ -70,6 +71,30 @@ TEST(Plant, FlatWithLinearTyresIsTheBicycleForSmallAngles) {
   };
   EXPECT_LT(difference(1e-3), 1e-5);
   EXPECT_NEAR(std::log2(difference(2e-3) / difference(1e-3)), 2.0, 0.1);
+}
+
+// Bank, slope, wind and steering offset are the disturbances of the controllers' model.
+TEST(Plant, DisturbedItIsTheDisturbedModelForSmallAngles) {
+  PlantParameters parameters = Flat();
+  parameters.steering_offset = 2e-4;
+  parameters.bank = 0.03;
+  parameters.slope = 0.02;
+  parameters.wind = {.from = 0.0, .until = 1.0, .lateral_acceleration = 0.5};
+  const control::BlendedModel model(
+      parameters.vehicle,
+      {.delta_0 = 2e-4, .a_y = kGravity * std::sin(0.03) + 0.5, .a_x = -kGravity * std::sin(0.02)});
+  const Plant plant(parameters, State::Zero());
+  const State z = Rolling(12.0, 4e-4, 3e-4);
+  const Input u(5e-5, 1.5e-3);
+  EXPECT_LT((plant.Derivative(z, u) - model.Derivative(z, u)).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(Plant, WindBlowsInItsTimeAlone) {
+  PlantParameters parameters;
+  parameters.wind = {.from = 1.0, .until = 2.0, .lateral_acceleration = 1.0};
+  EXPECT_EQ(Drive(parameters, Rolling(20.0), Input::Zero(), 1.0)[control::kNu], 0.0);
+  EXPECT_GT(Drive(parameters, Rolling(20.0), Input::Zero(), 1.5)[control::kNu], 0.01);
+  EXPECT_NEAR(Drive(parameters, Rolling(20.0), Input::Zero(), 6.0)[control::kNu], 0.0, 1e-3);
 }
 
 TEST(Plant, SteadyCorneringFollowsTheUndersteerFormula) {

@@ -1,6 +1,7 @@
 #include "sim/scenario.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 #include "config/toml_table.hpp"
 #include "gmock/gmock.h"
@@ -43,10 +44,25 @@ TEST_F(ScenarioTest, ExampleOfTheHeaderIsAScenario) {
   const std::string example = test_support::ExampleOf("sim/scenario.hpp");
   files_.Write("example.toml", example);
   const Scenario scenario = LoadScenario(files_.folder() / "example.toml");
-  EXPECT_EQ(scenario.obstacles.size(), 2u);
+  EXPECT_EQ(scenario.obstacles.size(), 5u);
   EXPECT_EQ(scenario.appears_at.at(1), 0.0);
+  EXPECT_EQ(scenario.disappears_at.at(1), 40.0);
+  EXPECT_EQ(scenario.motions.size(), 3u);
+  EXPECT_EQ(scenario.motions.at(4).speed.size(), 2u);
+  EXPECT_TRUE(scenario.motions.at(5).follows);
   EXPECT_EQ(scenario.expect.max_deadline_misses, 0);
   EXPECT_EQ(scenario.expect.max_rms_lateral_error_m, 0.5);
+  EXPECT_EQ(scenario.expect.max_speed_excess_mps, 0.5);
+  EXPECT_EQ(scenario.expect.max_rms_steering_rate, 0.2);
+  EXPECT_EQ(scenario.expect.max_p99_steering_rate, 0.5);
+  EXPECT_EQ(scenario.expect.max_rms_jerk, 2.0);
+  EXPECT_EQ(scenario.expect.max_p99_jerk, 8.0);
+  EXPECT_EQ(scenario.expect.max_free_standstill_s, 3.0);
+  EXPECT_EQ(scenario.expect.max_end_overshoot_m, 0.3);
+  EXPECT_EQ(scenario.expect.max_end_gap_m, 0.3);
+  EXPECT_EQ(scenario.expect.max_mode_changes, 0);
+  EXPECT_EQ(scenario.expect.max_safe_stops, 0);
+  EXPECT_EQ(scenario.expect.min_time_to_collision_s, 1.0);
 }
 
 TEST_F(ScenarioTest, StartInACurveIsSteadyCornering) {
@@ -84,6 +100,34 @@ TEST_F(ScenarioTest, ObstacleIsPlacedInTheMapOrAlongTheRoute) {
   EXPECT_NEAR(scenario.obstacles[1].heading, scenario.route.At(120.0).psi + 0.1, 1e-12);
 }
 
+TEST_F(ScenarioTest, ObstacleHasAShapeAndAClass) {
+  const Scenario scenario = files_.Load(
+      "[[obstacle]]\nid = 63\nr_x = 20\nr_y = 1.25\ns = 50\nshape = \"box\"\nclass = \"vehicle\"\n" +
+      kObstacle + "s = 120\n");
+  ASSERT_EQ(scenario.obstacles.size(), 2u);
+  EXPECT_EQ(scenario.obstacles[0].id, 63);
+  EXPECT_EQ(scenario.obstacles[0].r_x, 20.0);
+  EXPECT_EQ(scenario.obstacles[0].shape, control::ObstacleShape::kBox);
+  EXPECT_EQ(scenario.obstacles[0].object_class, control::ObstacleClass::kVehicle);
+  EXPECT_EQ(scenario.obstacles[1].shape, control::ObstacleShape::kEllipse);
+  EXPECT_EQ(scenario.obstacles[1].object_class, control::ObstacleClass::kUnknown);
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 50\nshape = \"circle\"\n"),
+              HasSubstr("must be one of \"ellipse\", \"box\""));
+  EXPECT_THAT(ErrorOf(kObstacle + "s = 50\nclass = \"dog\"\n"),
+              HasSubstr("must be one of \"unknown\", \"static\", \"vehicle\", \"cycle\", \"pedestrian\""));
+  EXPECT_THAT(ErrorOf("[[obstacle]]\nid = 64\nr_x = 1\nr_y = 1\ns = 50\n"),
+              EndsWith("'obstacle[0].id' = 64 is outside [0, 63]"));
+  EXPECT_THAT(ErrorOf("[[obstacle]]\nid = 1\nr_x = 20.1\nr_y = 1\ns = 50\n"),
+              EndsWith("'obstacle[0].r_x' = 20.1 is outside [0.05, 20] m"));
+}
+
+TEST_F(ScenarioTest, AsManyObstaclesAsTheBusHasIdsAreTaken) {
+  std::string text;
+  for (int id = 0; id < 64; ++id)
+    text += fmt::format("[[obstacle]]\nid = {}\nr_x = 1\nr_y = 1\ns = {}\n", id, id);
+  EXPECT_EQ(files_.Load(text).obstacles.size(), 64u);
+}
+
 TEST_F(ScenarioTest, DeviationsScaleTheVehicle) {
   const Scenario scenario = files_.Load(
       "[vehicle]\nmass_factor = 1.2\nfront_stiffness_factor = 0.9\ntyre = \"saturating\"\nmu = 0.6\n"
@@ -95,6 +139,21 @@ TEST_F(ScenarioTest, DeviationsScaleTheVehicle) {
   EXPECT_EQ(scenario.steering.time_constant, 0.06);
   EXPECT_EQ(scenario.steering.rate, 0.7);
   EXPECT_EQ(scenario.acceleration.delay_cycles, 1);
+}
+
+TEST_F(ScenarioTest, DisturbancesAreGivenWithTheVehicle) {
+  const PlantParameters plant = files_
+                                    .Load(
+                                        "[vehicle]\nsteering_offset = 0.0175\nbank = -0.06\nslope = 0.05\n"
+                                        "wind = {from = 2, until = 4, lateral_acceleration = -1.5}\n")
+                                    .plant;
+  EXPECT_EQ(plant.steering_offset, 0.0175);
+  EXPECT_EQ(plant.bank, -0.06);
+  EXPECT_EQ(plant.slope, 0.05);
+  EXPECT_EQ(plant.wind.from, 2.0);
+  EXPECT_EQ(plant.wind.until, 4.0);
+  EXPECT_EQ(plant.wind.lateral_acceleration, -1.5);
+  EXPECT_EQ(files_.Load("").plant.wind.lateral_acceleration, 0.0);
 }
 
 TEST_F(ScenarioTest, VehicleIsAPointUnlessItsRectangleIsGiven) {
@@ -144,6 +203,50 @@ TEST_F(ScenarioTest, WrongInputNamesFileLineKeyAndValue) {
   EXPECT_THAT(ErrorOf("[vehicle]\ntyre = \"round\"\n"),
               HasSubstr("must be one of \"linear\", \"saturating\""));
   EXPECT_THAT(ErrorOf("[expect]\nmin_clearence_m = 0\n"), EndsWith("is 'expect.min_clearance_m' meant?"));
+}
+
+TEST_F(ScenarioTest, WrongMotionOfAnObstacleIsRefused) {
+  const std::string along = kObstacle + "s = 50\nalong_route = true\n";
+  const auto expect = [this](const std::string& text, const std::string& error) {
+    EXPECT_THAT(ErrorOf(text), HasSubstr("key 'obstacle[0]." + error)) << text;
+  };
+  expect(kObstacle + "X = 5\nY = 3\nalong_route = true\n", "along_route' = true must not be true without s");
+  expect(kObstacle + "s = 50\nspeed = 3\n", "speed' = 3 must not be given without along_route = true");
+  expect(kObstacle + "s = 50\nfollows = true\n",
+         "follows' = true must not be given without along_route = true");
+  for (const char* key : {"speed_profile", "lateral_profile"}) {
+    expect(kObstacle + "s = 50\n" + key + " = [{time = 1}]\n", std::string(key) + "'");
+    expect(along + key + " = []\n", std::string(key) + "'");
+    EXPECT_THAT(ErrorOf(along + key + " = []\n"), EndsWith("must have at least one point"));
+  }
+  expect(along + "velocity_X = 1\n", "velocity_X' = 1 must not be given along with along_route");
+  expect(along + "velocity_Y = 1\n", "velocity_Y' = 1 must not be given along with along_route");
+  expect(along + "speed = 61\n", "speed' = 61 is outside [-60, 60] m/s");
+  expect(along + "speed = 1\nspeed_profile = [{time = 1, speed = 2}]\n",
+         "speed' = 1 must not be given along with speed_profile");
+  expect(along + "lateral = 1\nlateral_profile = [{time = 1, lateral = 2}]\n",
+         "lateral' = 1 must not be given along with lateral_profile");
+  expect(along + "speed_profile = [{time = 1, speed = 2}, {time = 1, speed = 3}]\n",
+         "speed_profile[1].time' = 1 must be later than that of the point before");
+  expect(along + "speed_profile = [{time = -1, speed = 2}]\n", "speed_profile[0].time' = -1 is outside [0, ");
+  expect(along + "lateral_profile = [{time = 1}]\n", "lateral_profile[0].lateral' is missing");
+  expect(along + "follows = true\n", "speed' is missing");
+  expect(along + "follows = true\nspeed = 0\n", "speed' = 0 must not be 0 along with follows");
+  expect(along + "follows = true\nspeed = 1\nspeed_profile = [{time = 1, speed = 2}]\n", "speed_profile' ");
+  expect(kObstacle + "s = 50\nappears_at = 3\ndisappears_at = 3\n",
+         "disappears_at' = 3 must be later than 3 s, when it appears");
+  EXPECT_THAT(ErrorOf(along + "speed_profile = [{time = 1, speed = 2, place = 3}]\n"),
+              HasSubstr("unknown key 'obstacle[0].speed_profile[0].place'"));
+  EXPECT_EQ(ErrorOf(along + "speed = -10\nlateral_profile = [{time = 1, lateral = 2}]\n"), "no error");
+}
+
+TEST_F(ScenarioTest, WrongExpectationIsRefused) {
+  for (const char* key : {"max_speed_excess_mps", "max_rms_steering_rate", "max_p99_steering_rate",
+                          "max_rms_jerk", "max_p99_jerk", "max_free_standstill_s", "max_end_overshoot_m",
+                          "max_end_gap_m", "max_mode_changes", "max_safe_stops", "min_time_to_collision_s"}) {
+    EXPECT_THAT(ErrorOf("[expect]\n" + std::string(key) + " = -1\n"),
+                HasSubstr(":4: key 'expect." + std::string(key) + "' = -1 is outside [0, "));
+  }
 }
 
 TEST_F(ScenarioTest, MissingRouteFileIsNamed) {

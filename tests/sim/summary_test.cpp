@@ -4,8 +4,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "tests/sim/fake_daemon.hpp"
-#include "tests/sim/scenario_files.hpp"
+#include "tests/sim/drive_test.hpp"
 
 namespace sim {
 namespace {
@@ -13,31 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class SummaryTest : public testing::Test {
- protected:
-  // Drives to the end; `disturb` may change the controller before each cycle.
-  template <typename F>
-  Summary Drive(const Scenario& scenario, const F& disturb) {
-    VirtualVehicle vehicle(scenario, bus_);
-    FakeDaemon controller(bus_, scenario.route);
-    Recorder recorder(scenario);
-    while (!recorder.finished()) {
-      disturb(controller, vehicle);
-      for (const can::Frame& frame : vehicle.Sense({})) {
-        for (const can::Frame& answer : controller.Receive(frame)) vehicle.Receive(answer);
-      }
-      recorder.Record(vehicle);
-      vehicle.Advance();
-    }
-    return recorder.Result();
-  }
-  Summary Drive(const std::string& text) {
-    return Drive(files_.Load(text), [](FakeDaemon&, VirtualVehicle&) {});
-  }
-
-  ScenarioFiles files_;
-  bus::VehicleBus bus_;
-};
+using SummaryTest = DriveTest;
 
 TEST_F(SummaryTest, DriveToTheEndOfTheRouteIsCompleted) {
   const Summary summary = Drive("[expect]\nmin_road_margin_m = 2.0\nmax_rms_lateral_error_m = 0.5\n");
@@ -96,6 +71,19 @@ TEST_F(SummaryTest, CornersLeaveTheRoadBeforeTheCentreDoes) {
   const Summary car = Drive(at_the_edge + kCar);
   EXPECT_LT(*car.min_road_margin_m, -0.35);
   EXPECT_EQ(car.off_road_step, 0);
+}
+
+TEST_F(SummaryTest, RoadMarginIsThatToTheEdgesBesideEachCorner) {
+  // The left edge comes nearer by 0.125 m per metre from s = 30 m to 50 m.
+  files_.Write("route.toml",
+               "[route]\nstart = {X = 10.0, Y = 0.0, psi = 0.0}\nspeed = 12.0\npieces = [\n"
+               "  {kind = \"straight\", length = 30.0},\n"
+               "  {kind = \"straight\", length = 20.0, left = 1.5},\n"
+               "  {kind = \"straight\", length = 60.0},\n"
+               "]\n[road]\nleft = 4.0\nright = 4.0\n");
+  // After 3 s at 12 m/s the front is at s = 37.95 m, less the way of one cycle.
+  EXPECT_NEAR(*Drive("duration = 3.0\n" + kCar).min_road_margin_m, 4.0 - 0.125 * (37.95 - 30.0) - 0.9, 0.08);
+  EXPECT_NEAR(*Drive(kCar).min_road_margin_m, 1.5 - 0.9, 1e-3);
 }
 
 TEST_F(SummaryTest, ContactIsReportedWithItsFirstStep) {
@@ -192,10 +180,13 @@ TEST(SummaryJson, HasTheAgreedKeys) {
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(ToJson(summary));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ElementsAre("completed", "steps", "infeasible_steps", "relaxed_steps", "rejected_plans",
-                                "first_unmet", "worst_unmet", "min_clearance_m", "min_road_margin_m",
-                                "contact_step", "off_road_step", "standing", "rms_lateral_error_m",
-                                "solve_time_us", "deadline_misses", "passed", "failed_expectations"));
+  EXPECT_THAT(keys, ElementsAre("completed", "time_is_up", "steps", "infeasible_steps", "relaxed_steps",
+                                "rejected_plans", "first_unmet", "worst_unmet", "min_clearance_m",
+                                "min_road_margin_m", "contact_step", "contact_fault", "off_road_step",
+                                "standing", "rms_lateral_error_m", "solve_time_us", "deadline_misses",
+                                "max_speed_excess_mps", "rms_steering_rate", "p99_steering_rate", "rms_jerk",
+                                "p99_jerk", "longest_free_standstill_s", "end_overshoot_m", "mode_changes",
+                                "safe_stops", "min_time_to_collision_s", "passed", "failed_expectations"));
   EXPECT_TRUE(json["min_clearance_m"].is_null());
   EXPECT_TRUE(json["first_unmet"].is_null());
   EXPECT_EQ(json["min_road_margin_m"], 1.5);

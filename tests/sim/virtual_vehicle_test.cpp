@@ -1,7 +1,9 @@
 #include "sim/virtual_vehicle.hpp"
 
 #include <chrono>
+#include <fmt/format.h>
 #include <map>
+#include <utility>
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
@@ -87,6 +89,35 @@ TEST_F(VirtualVehicleTest, TellsStateAndObstaclesAsTheyAre) {
     }
   }
   EXPECT_EQ(positions, 2);
+}
+
+TEST_F(VirtualVehicleTest, TellsShapeAndClassOfEachObstacle) {
+  const std::vector<std::pair<std::string, bus::ObstacleClass>> classes{
+      {"unknown", bus::ObstacleClass::kUnknown},
+      {"static", bus::ObstacleClass::kStatic},
+      {"vehicle", bus::ObstacleClass::kVehicle},
+      {"cycle", bus::ObstacleClass::kCycle},
+      {"pedestrian", bus::ObstacleClass::kPedestrian}};
+  std::string text;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    text += fmt::format("[[obstacle]]\nid = {}\ns = 50\nr_x = {}\nr_y = 1\nshape = \"{}\"\nclass = \"{}\"\n",
+                        i, 16 + i, i % 2 == 0 ? "box" : "ellipse", classes[i].first);
+  }
+  VirtualVehicle vehicle(files_.Load(text), bus_);
+  std::size_t shapes = 0, motions = 0;
+  for (const can::Frame& frame : vehicle.Sense({})) {
+    const bus::Message message = bus_.Decode(frame.id, frame.Payload()).value();
+    if (const auto* shape = std::get_if<bus::ObstacleShape>(&message)) {
+      EXPECT_EQ(shape->outline, shapes % 2 == 0 ? bus::Outline::kBox : bus::Outline::kEllipse);
+      EXPECT_NEAR(shape->semi_axis_x, 16.0 + static_cast<double>(shapes), 2e-3);
+      ++shapes;
+    } else if (const auto* motion = std::get_if<bus::ObstacleMotion>(&message)) {
+      EXPECT_EQ(motion->object_class, classes.at(motions).second);
+      ++motions;
+    }
+  }
+  EXPECT_EQ(shapes, classes.size());
+  EXPECT_EQ(motions, classes.size());
 }
 
 TEST_F(VirtualVehicleTest, ObstacleThatAppearsLaterIsThereButNotPerceivedBefore) {

@@ -1,9 +1,11 @@
 #include "tools/drive/closed_loop.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <vector>
 
 #include "bus/vehicle_bus.hpp"
+#include "control/road/projection.hpp"
 
 namespace {
 
@@ -33,6 +35,16 @@ TEST(ClosedLoop, TrustRegionDrivesTheDemoClearOfObstaclesAndInsideTheRoad) {
   EXPECT_LT(summary.rms_lateral_error_m.value_or(1e9), 0.5);
 }
 
+TEST(ClosedLoop, RoadThatNarrowsIsDrivenAtSpeedAndInsideItsEdges) {
+  const std::filesystem::path folder = LPVMPC_SOURCE_DIR "/scenarios/narrowing_road";
+  const sim::Scenario scenario = sim::LoadScenario(folder / "scenario.toml");
+  const sim::Summary summary = tools::DriveClosedLoop(scenario, loop::LoadConfig(folder / "lpvmpcd.toml"));
+  EXPECT_TRUE(summary.passed());
+  EXPECT_EQ(summary.rejected_plans, 0);
+  EXPECT_GT(summary.min_road_margin_m.value_or(-1.0), 0.0);
+  EXPECT_LT(static_cast<double>(summary.steps) * sim::kCycleTime, 1.25 * scenario.route.duration());
+}
+
 TEST(ClosedLoop, StandardLpvmpcBecomesInfeasibleInTheSameScenario) {
   EXPECT_GT(DriveDemo("lpv-standard").summary.infeasible_steps, 0);
 }
@@ -54,6 +66,34 @@ TEST(ClosedLoop, NmpcDrivesByTheSameFrames) {
   EXPECT_LT(summary.rms_lateral_error_m.value_or(1e9), 0.1);
   EXPECT_GT(steps, 150);
   EXPECT_EQ(solved, steps);
+}
+
+TEST(ClosedLoop, LorryAtAnAngleIsPassedWithoutTouchingItsCorners) {
+  const std::filesystem::path folder = LPVMPC_SOURCE_DIR "/scenarios/whole_drive";
+  sim::Scenario scenario = sim::LoadScenario(folder / "scenario.toml");
+  const control::RoutePoint at = scenario.route.At(150.0);
+  const Eigen::Vector2d centre = control::Beside(at, -2.4);
+  scenario.obstacles = {{.id = 40,
+                         .X = centre.x(),
+                         .Y = centre.y(),
+                         .r_x = 8.0,
+                         .r_y = 1.25,
+                         .heading = control::WrapAngle(at.psi + 0.12),
+                         .shape = control::ObstacleShape::kBox,
+                         .object_class = control::ObstacleClass::kVehicle}};
+  scenario.appears_at.clear();
+  scenario.duration = 35.0;
+  const loop::Config config = loop::LoadConfig(folder / "lpvmpcd.toml");
+  double farthest = 0.0;
+  const sim::Summary summary = tools::DriveClosedLoop(
+      scenario, config, {.step = [&](const tools::StepObservation& observed) {
+        farthest = std::max(farthest, scenario.route.Project(observed.plan.z[0].head<2>()).s);
+      }});
+  EXPECT_GT(farthest, 200.0) << "the lorry is not passed";
+  EXPECT_EQ(summary.infeasible_steps, 0);
+  EXPECT_GT(summary.min_clearance_m.value_or(-1.0), 0.1);
+  EXPECT_LT(summary.min_clearance_m.value_or(1e9), 1.0);
+  EXPECT_GE(summary.min_road_margin_m.value_or(-1.0), 0.0);
 }
 
 TEST(ClosedLoop, StopEndsTheDriveThere) {

@@ -70,7 +70,8 @@ TEST(Decode, ShowsPhysicalValuesWithUnitsAndTextsOfEnumerations) {
 
 TEST(Decode, MultiplexedFrameShowsOnlyItsOwnSignals) {
   const std::string line = Decode(Line(bus::ObstacleMotion{.object_id = 2, .velocity_X = 1.5}, 0)).out;
-  EXPECT_THAT(line, HasSubstr("Part=Motion ObjectId=2 VelocityX=1.500 m/s VelocityY=0.000 m/s |"));
+  EXPECT_THAT(line,
+              HasSubstr("Part=Motion ObjectId=2 VelocityX=1.500 m/s VelocityY=0.000 m/s Class=Unknown |"));
 }
 
 TEST(Decode, JudgesTheCounterOfEachMessageAndInterfaceByItself) {

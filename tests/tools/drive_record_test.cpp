@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "tests/bus/bus_frames.hpp"
 #include "tools/drive/closed_loop.hpp"
 
 namespace {
@@ -63,6 +64,20 @@ TEST_F(DriveRecordTest, ObstaclesAreThoseOfTheScenario) {
     EXPECT_NEAR(record.obstacles[i].r_y, obstacles[i].r_y, 2e-3);
     EXPECT_NEAR(std::remainder(record.obstacles[i].heading - obstacles[i].heading, 2 * M_PI), 0.0, 1e-3);
   }
+}
+
+TEST_F(DriveRecordTest, ObstaclesHaveTheirShapeAndClass) {
+  DriveRecorder recorder(bus_, 0.05);
+  std::uint8_t counter = 0;
+  for (const bus::Message& message : std::initializer_list<bus::Message>{
+           bus::ObstaclePosition{.object_id = 63},
+           bus::ObstacleShape{.object_id = 63, .semi_axis_x = 8.0, .outline = bus::Outline::kBox},
+           bus::ObstacleMotion{.object_id = 63, .object_class = bus::ObstacleClass::kVehicle}}) {
+    recorder.Take(bus::MakeFrame(bus_, message, counter++));
+  }
+  ASSERT_EQ(recorder.record().obstacles.size(), 1u);
+  EXPECT_EQ(recorder.record().obstacles[0].shape, control::ObstacleShape::kBox);
+  EXPECT_EQ(recorder.record().obstacles[0].object_class, control::ObstacleClass::kVehicle);
 }
 
 TEST_F(DriveRecordTest, LostStateSetsLeaveAGapInTime) {

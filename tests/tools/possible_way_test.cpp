@@ -20,7 +20,7 @@ sim::Scenario Scenario(double curvature = 0.0) {
   const std::array pieces{
       control::RoutePiece{.length = 100.0, .curvature_from = curvature, .curvature_to = curvature}};
   sim::Scenario scenario(control::Route::FromPieces({.X = 700.0}, kSpeed, pieces),
-                         {.left = 4.0, .right = -4.0});
+                         control::RoadBounds{.left = 4.0, .right = -4.0});
   scenario.footprint = {.front = 2.0, .rear = 2.0, .half_width = 0.9};
   scenario.plant.mu = 0.8;
   return scenario;
@@ -65,6 +65,19 @@ TEST(PossibleWay, GapMustTakeTheVehicleAndTwentyCentimetresOnEitherSide) {
   // 2.21 m and 2.19 m remain on the left, less on the right.
   EXPECT_EQ(FindPossibleWay(With({.X = 750.0, .Y = -1.0, .r_x = 1.0, .r_y = 2.79})), PossibleWay::kPass);
   EXPECT_EQ(FindPossibleWay(With({.X = 750.0, .Y = -1.0, .r_x = 1.0, .r_y = 2.81})), PossibleWay::kStop);
+}
+
+TEST(PossibleWay, WidthOfTheRoadCountsWhereTheObstacleIsMet) {
+  // 2.3 m remain on the left where it is met; the road is half a metre narrower at its end, on the left.
+  sim::Scenario scenario = With({.X = 750.0, .Y = -1.0, .r_x = 1.0, .r_y = 2.7});
+  const auto narrow_from = [&](double s) {
+    scenario.road = control::RoadEdges(
+        std::array{control::RoadSample{.s = s}, control::RoadSample{.s = s + 1.0, .bounds = {.left = 3.5}}});
+  };
+  narrow_from(60.0);
+  EXPECT_EQ(FindPossibleWay(scenario), PossibleWay::kPass);
+  narrow_from(45.0);
+  EXPECT_EQ(FindPossibleWay(scenario), PossibleWay::kStop);
 }
 
 TEST(PossibleWay, PrescribedSideIsTheOnlyOne) {

@@ -6,6 +6,7 @@ usage: report_browser_test.py RENDER_REPORT
 import copy
 import json
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -17,6 +18,8 @@ import report_fixture
 from report_page_check import LEAST_COLOURED, check_page, complaints, read_plots
 
 RENDER_REPORT = ""
+# Parts of the page's script are not reachable from outside; this one needs no other but uPlot, which is global.
+PEN = (pathlib.Path(__file__).parents[2] / "tools/report/pen.js").read_text(encoding="utf-8")
 TITLE = "A bend & <two> controllers"
 # The first section with drives, its plane and its plots over time.
 DRIVES = "section:nth-of-type(4)"
@@ -174,6 +177,30 @@ class ReportPage(unittest.TestCase):
         self.chromium.double_click(PLANE)
         self.assertAlmostEqual(self.metres_per_pixel()[0] / whole[0], 1.0, delta=0.02)
 
+    def painted(self, shape, margin, points):
+        """Whether an obstacle of 8 m by 4 m covers these points in its own axes."""
+        return self.chromium.run(PEN + """
+          const [shape, margin, points] = arguments;
+          const ctx = Object.assign(document.createElement("canvas"), {width: 200, height: 200}).getContext("2d");
+          const onCanvas = (value, axis) => axis === "x" ? 100 + 10 * value : 100 - 10 * value;
+          const pen = makePen({ctx, valToPos: onCanvas, bbox: {width: 200}, scales: {x: {min: -10, max: 10}}});
+          pen.obstacle({X: 1, Y: 2, shape, r_x: 4, r_y: 2, heading: 0.5}, margin, {fill: "#000"});
+          return points.map(([ahead, left]) => {
+            const X = 1 + ahead * Math.cos(0.5) - left * Math.sin(0.5);
+            const Y = 2 + ahead * Math.sin(0.5) + left * Math.cos(0.5);
+            return ctx.getImageData(onCanvas(X, "x"), onCanvas(Y, "y"), 1, 1).data[3] > 0;
+          })""", shape, margin, points)
+
+    def test_an_obstacle_is_drawn_in_its_shape_and_size(self):
+        self.open()
+        corners = [(3.8, 1.8), (3.8, -1.8), (-3.8, -1.8), (-3.8, 1.8)]
+        sides, beyond = [(3.8, 0), (0, 1.8)], [(4.2, 0), (0, -2.2)]
+        self.assertEqual(self.painted("box", 0, corners + sides + beyond), [True] * 6 + [False] * 2)
+        self.assertEqual(self.painted("ellipse", 0, corners + sides + beyond), [False] * 4 + [True] * 2 + [False] * 2)
+        # The margin reaches its length beyond sides and corners.
+        self.assertEqual(self.painted("box", 1, [(4.8, 1.8), (0, -2.8), (4.6, 2.6), (4.85, 2.85)]),
+                         [True, True, True, False])
+
     def test_a_cell_of_the_map_tells_its_numbers(self):
         self.open()
         self.chromium.point("section:last-of-type figure:last-of-type .u-over", 0.99, 0.01)
@@ -237,6 +264,9 @@ class ReportPage(unittest.TestCase):
         def off_road(report):
             report["drives"]["trust"]["road"] = "lane"
 
+        def of_no_shape(report):
+            report["drives"]["trust"]["obstacles"][0]["shape"] = "triangle"
+
         def without_cells(report):
             report["sections"][-1]["panels"][0]["cells"].pop()
 
@@ -244,6 +274,7 @@ class ReportPage(unittest.TestCase):
                               (short, "drives.standard.series.psi is not as long as t"),
                               (of_nobody, 'sections.3. shows drive "nobody"'),
                               (off_road, 'drives.trust.road is "lane"'),
+                              (of_no_shape, "drives.trust.obstacles.0..shape is of another kind"),
                               (without_cells, "sections.6..panels.0..cells")):
             with self.subTest(fault):
                 report = copy.deepcopy(report_fixture.report())

@@ -6,9 +6,9 @@ T_S = 0.05
 HORIZON = 8
 STEPS = 240
 SPEED = 12.0
-OBSTACLE = {"id": 1, "X": 78.0, "Y": 15.6, "r_x": 1.6, "r_y": 1.1, "heading": 0.2, "margin": 0.4,
+OBSTACLE = {"id": 1, "X": 78.0, "Y": 15.6, "shape": "ellipse", "r_x": 1.6, "r_y": 1.1, "heading": 0.2, "margin": 0.4,
             "velocity_X": 0.0, "velocity_Y": 0.0}
-CROSSING = {"id": 2, "X": 127.0, "Y": 12.0, "r_x": 0.8, "r_y": 0.8, "heading": 0.0, "margin": 0.3,
+CROSSING = {"id": 2, "X": 127.0, "Y": 12.0, "shape": "box", "r_x": 1.8, "r_y": 0.8, "heading": 0.4, "margin": 0.3,
             "velocity_X": -0.4, "velocity_Y": 1.0}
 UNSOLVED = {"standard": set(range(118, 131)) | {140}, "trust": {160}}
 

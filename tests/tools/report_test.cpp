@@ -1,5 +1,7 @@
 #include "tools/report/report.hpp"
 
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include "tests/support/temp_dir.hpp"
 #include "tools/commands/run.hpp"
 #include "tools/drive/drive_file.hpp"
+#include "tools/report/report_data.hpp"
 
 namespace {
 
@@ -66,6 +69,7 @@ TEST_F(ReportTest, PageOfADriveHoldsItsSeriesRoadAndResult) {
   const nlohmann::json& drive = data.at("drives").at("drive");
   EXPECT_EQ(drive.at("controller"), "lpv");
   EXPECT_EQ(drive.at("obstacles").size(), 3u);
+  EXPECT_EQ(drive.at("obstacles").at(0).at("shape"), "ellipse");
   const std::size_t samples = drive.at("series").at("t").size();
   EXPECT_GT(samples, 1000u);
   for (const auto& [name, series] : drive.at("series").items()) EXPECT_EQ(series.size(), samples) << name;
@@ -76,6 +80,21 @@ TEST_F(ReportTest, PageOfADriveHoldsItsSeriesRoadAndResult) {
   for (const auto& section : data.at("sections")) types.push_back(section.at("type"));
   EXPECT_EQ(types, (std::vector<std::string>{"figures", "drives", "fans"}));
   EXPECT_LT(std::filesystem::file_size(page_), 600'000u) << "a few hundred kB are promised";
+}
+
+TEST(RoadData, EdgesAreDrawnWhereTheyAre) {
+  const std::array pieces{control::RoutePiece{.length = 40.0}};
+  const std::array samples{control::RoadSample{.s = 10.0},
+                           control::RoadSample{.s = 30.0, .bounds = {.left = 2.0, .right = -1.0}}};
+  const nlohmann::ordered_json data = tools::RoadData(
+      {.route = control::Route::FromPieces({}, 10.0, pieces), .road = control::RoadEdges(samples)});
+  for (std::size_t i = 0; i < 21; ++i) {
+    const double X = 2.0 * static_cast<double>(i), share = std::clamp((X - 10.0) / 20.0, 0.0, 1.0);
+    for (const char* line : {"reference", "left", "right"}) EXPECT_EQ(data.at(line).at("X").at(i), X);
+    EXPECT_NEAR(data.at("left").at("Y").at(i).get<double>(), 4.0 - 2.0 * share, 0.005 + 1e-9);
+    EXPECT_NEAR(data.at("right").at("Y").at(i).get<double>(), -4.0 + 3.0 * share, 0.005 + 1e-9);
+    EXPECT_EQ(data.at("reference").at("Y").at(i), 0.0);
+  }
 }
 
 TEST_F(ReportTest, RunWritesTheSamePageAsReport) {

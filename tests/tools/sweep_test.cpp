@@ -138,7 +138,7 @@ TEST(SweepDrive, WallThatIsSeenTooLateIsHit) {
 
 TEST(SweepDrive, CornerBesideTheRoadIsOffIt) {
   tools::RandomScenario drawn = WithoutObstacles(3);
-  drawn.scenario.road.left = 0.5;  // the controller does not know of it
+  drawn.scenario.road = control::RoadBounds{.left = 0.5};  // the controller does not know of it
   const SweepDrive drive = DriveOf(drawn);
   EXPECT_EQ(drive.outcome, SweepOutcome::kOffRoad);
   EXPECT_THAT(drive.why, HasSubstr("off the road at step "));
@@ -149,7 +149,8 @@ TEST(SweepDrive, DriveThatTheDriverBrakesToAStopIsStopped) {
   tools::RandomScenario drawn = tools::DrawScenario(3, slow);
   drawn.scenario.obstacles.clear();
   drawn.scenario.driver.brake_at = 1.0;
-  drawn.scenario.road = {.left = 20.0, .right = -20.0};  // wide, since the driver does not steer
+  drawn.scenario.road =
+      control::RoadBounds{.left = 20.0, .right = -20.0};  // wide, since the driver does not steer
   EXPECT_EQ(tools::DriveSweepScenario(drawn, slow, "lpv").drive.outcome, SweepOutcome::kStopped);
 }
 

@@ -9,6 +9,7 @@
 #include "base/clock.hpp"
 #include "base/time.hpp"
 #include "loop/assembly.hpp"
+#include "sim/recorder.hpp"
 #include "sim/virtual_vehicle.hpp"
 #include "tools/drive/make_controller.hpp"
 

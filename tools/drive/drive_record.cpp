@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "dbc/e2e.hpp"
+#include "loop/obstacle_assembler.hpp"
 
 namespace tools {
 namespace {
@@ -113,6 +114,7 @@ void DriveRecorder::TakeMotion(const bus::ObstacleMotion& motion) {
   const double t = record_.samples.empty() ? 0.0 : record_.Time(record_.samples.back()) + record_.t_s;
   obstacle->velocity_X = motion.velocity_X;
   obstacle->velocity_Y = motion.velocity_Y;
+  obstacle->object_class = loop::ToControl(motion.object_class);
   obstacle->X -= t * motion.velocity_X;
   obstacle->Y -= t * motion.velocity_Y;
 }
@@ -148,6 +150,7 @@ void DriveRecorder::TakeMessage(const bus::Message& message, std::uint8_t counte
                    obstacle->r_x = shape.semi_axis_x;
                    obstacle->r_y = shape.semi_axis_y;
                    obstacle->heading = shape.heading;
+                   obstacle->shape = loop::ToControl(shape.outline);
                  },
                  [&](const bus::ObstacleMotion& motion) { TakeMotion(motion); },
                  [&](const bus::ControllerStatus& status) {

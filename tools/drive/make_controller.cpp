@@ -14,7 +14,7 @@ std::unique_ptr<control::Controller> MakeController(const loop::Config& config, 
     // The computer's speed must not change the drive: only the iteration limit ends a solve.
     settings.max_cpu_time = 1e6;
     return std::make_unique<control::TimedController>(
-        std::make_unique<control::Nmpc>(config.vehicle, settings), road.reference, road.profile.road());
+        std::make_unique<control::Nmpc>(config.vehicle, settings), road.reference, road.profile.edges());
   }
   if (config.controller == loop::ControllerKind::kNmpcAffine) {
     return std::make_unique<control::AffineNmpc>(config.vehicle, road.profile, config.affine);

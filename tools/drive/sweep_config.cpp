@@ -43,8 +43,7 @@ std::vector<std::string> SweepControllers() {
 config::RouteFile RouteFor(const RandomScenario& drawn, const loop::Config& config) {
   config::RouteFile route = drawn.route;
   if (!IsPapers(config.controller)) return route;
-  route.road.left -= drawn.scenario.footprint.half_width;
-  route.road.right += drawn.scenario.footprint.half_width;
+  route.road = route.road.Inset(drawn.scenario.footprint.half_width);
   return route;
 }
 

@@ -16,7 +16,7 @@ CircleOutcome Drive(const CircleDrive& drive) {
                                               .curvature_to = 1.0 / kCircleRadius}};
   const config::RouteFile road{
       .route = control::Route::FromPieces({.X = 300.0, .Y = 0.0, .psi = 0.0}, drive.speed, pieces),
-      .road = {.left = kCircleRoadHalfWidth, .right = -kCircleRoadHalfWidth}};
+      .road = control::RoadBounds{.left = kCircleRoadHalfWidth, .right = -kCircleRoadHalfWidth}};
 
   sim::Scenario scenario(road.route, road.road);
   scenario.PlaceVehicle(0.0, drive.speed);

@@ -12,6 +12,7 @@ const sectionMembers = {
         marks: Array.isArray},
 };
 const isText = value => typeof value === "string";
+const isShape = value => value === "ellipse" || value === "box";
 const isObject = value => typeof value === "object" && value !== null && !Array.isArray(value);
 const isRange = value => Array.isArray(value) && value.length === 2 && value.every(Number.isFinite);
 
@@ -62,7 +63,9 @@ function checkDrive(drive, where, report, {expect, members, line}) {
   members(drive.outline, `${where}.outline`, {front: Number.isFinite, rear: Number.isFinite, width: Number.isFinite});
   members(drive.limits, `${where}.limits`, {delta: isRange, a: isRange});
   drive.obstacles?.forEach((obstacle, i) => {
-    members(obstacle, `${where}.obstacles[${i}]`, Object.fromEntries(obstacleNames.map(key => [key, Number.isFinite])));
+    members(obstacle, `${where}.obstacles[${i}]`, {
+      shape: isShape, ...Object.fromEntries(obstacleNames.map(key => [key, Number.isFinite])),
+    });
   });
   const t = drive.series?.t;
   if (!Array.isArray(t) || t.length === 0 || !t.every(Number.isFinite)) {

@@ -68,9 +68,21 @@ function makePen(plot) {
       finish(path, style);
     },
 
-    ellipse({X, Y, r_x, r_y, heading}, style) {
+    // The obstacle enlarged by `margin` [m]: an ellipse with longer semi-axes, a box with arcs about its corners.
+    obstacle({X, Y, shape, r_x, r_y, heading}, margin, style) {
       const path = new Path2D();
-      path.ellipse(...at(X, Y), r_x * pixelsPerMetre, r_y * pixelsPerMetre, -heading, 0, 2 * Math.PI);
+      if (shape === "box") {
+        [[1, 1], [-1, 1], [-1, -1], [1, -1]].forEach(([ahead, left], quarter) => {
+          const corner = at(X + ahead * r_x * Math.cos(heading) - left * r_y * Math.sin(heading),
+                            Y + ahead * r_x * Math.sin(heading) + left * r_y * Math.cos(heading));
+          const from = -heading - quarter * Math.PI / 2;
+          path.arc(...corner, margin * pixelsPerMetre, from, from - Math.PI / 2, true);
+        });
+        path.closePath();
+      } else {
+        path.ellipse(...at(X, Y), (r_x + margin) * pixelsPerMetre, (r_y + margin) * pixelsPerMetre, -heading, 0,
+                     2 * Math.PI);
+      }
       finish(path, style);
     },
 

@@ -111,18 +111,20 @@ ordered_json RoadData(const config::RouteFile& road) {
   struct Line {
     ordered_json X = ordered_json::array(), Y = ordered_json::array();
   };
-  const auto line = [&](double lateral) {
+  const auto line = [&](const auto& lateral) {
     Line points;
     const auto steps = static_cast<int>(std::ceil(road.route.length() / kSpacing));
     for (int i = 0; i <= steps; ++i) {
-      const control::RoutePoint at = road.route.At(std::min(i * kSpacing, road.route.length()));
-      const Eigen::Vector2d beside = control::Beside(at, lateral);
+      const double s = std::min(i * kSpacing, road.route.length());
+      const Eigen::Vector2d beside = control::Beside(road.route.At(s), lateral(s));
       points.X.push_back(Rounded(beside.x(), 2));
       points.Y.push_back(Rounded(beside.y(), 2));
     }
     return ordered_json{{"X", points.X}, {"Y", points.Y}};
   };
-  return {{"reference", line(0.0)}, {"left", line(road.road.left)}, {"right", line(road.road.right)}};
+  return {{"reference", line([](double) { return 0.0; })},
+          {"left", line([&](double s) { return road.road.At(s).left; })},
+          {"right", line([&](double s) { return road.road.At(s).right; })}};
 }
 
 ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const loop::Config& config,
@@ -132,6 +134,7 @@ ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const
     obstacles.push_back({{"id", o.id},
                          {"X", o.X},
                          {"Y", o.Y},
+                         {"shape", o.shape == control::ObstacleShape::kBox ? "box" : "ellipse"},
                          {"r_x", o.r_x},
                          {"r_y", o.r_y},
                          {"heading", o.heading},

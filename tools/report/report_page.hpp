@@ -9,8 +9,8 @@
 //
 // DRIVE:
 //   {"name": "...", "controller": "lpv", "horizon": N, "t_s": period [s], "road": KEY,
-//    "obstacles": [{"id", "X", "Y" [m], "r_x", "r_y" [m], "heading" [rad], "margin" [m],
-//                   "velocity_X", "velocity_Y" [m/s]}, ...]   positions at t = 0
+//    "obstacles": [{"id", "X", "Y" [m], "shape": "ellipse" | "box", "r_x", "r_y" [m], "heading" [rad],
+//                   "margin" [m], "velocity_X", "velocity_Y" [m/s]}, ...]   positions at t = 0
 //    "outline": {"front", "rear", "width" [m]},   the vehicle's rectangle about (X, Y)
 //    "limits": {"delta": [min, max], "a": [min, max]},
 //    "series": {"t" [s], rising,

@@ -51,10 +51,8 @@ function drawRoad(pen, {reference, left, right}) {
 }
 
 function drawObstacle(pen, obstacle) {
-  const {r_x, r_y, margin} = obstacle;
-  pen.ellipse(obstacle, {fill: color("obstacle"), color: color("obstacle-edge"), width: 1});
-  pen.ellipse({...obstacle, r_x: r_x + margin, r_y: r_y + margin},
-              {color: color("obstacle-edge"), width: 1, dash: [4, 3]});
+  pen.obstacle(obstacle, 0, {fill: color("obstacle"), color: color("obstacle-edge"), width: 1});
+  pen.obstacle(obstacle, obstacle.margin, {color: color("obstacle-edge"), width: 1, dash: [4, 3]});
 }
 
 // Draws the obstacles of several drives at sample `sample(drive, obstacle)`; obstacles that coincide are drawn once.
@@ -75,17 +73,23 @@ const roadsOf = (report, drives) => [...new Set(drives.map(drive => drive.road))
 // Two opposite corners of a square around the obstacle and its margin, where `drive` is nearest, as a line for
 // boxAbout().
 function extentOf(obstacle, drive) {
-  const {X, Y, r_x, r_y, margin} = placedAt(obstacle, drive, closestSample(drive, obstacle));
-  const radius = Math.max(r_x, r_y) + margin;
+  const {X, Y, shape, r_x, r_y, margin} = placedAt(obstacle, drive, closestSample(drive, obstacle));
+  const radius = (shape === "box" ? Math.hypot(r_x, r_y) : Math.max(r_x, r_y)) + margin;
   return {X: [X - radius, X + radius], Y: [Y - radius, Y + radius]};
 }
+
+const obstacleSwatch = ellipse => swatch(ellipse
+  ? `<ellipse cx="15" cy="7" rx="8" ry="4" fill="var(--obstacle)" stroke="var(--obstacle-edge)"/>` +
+    `<ellipse cx="15" cy="7" rx="12" ry="6.4" fill="none" stroke="var(--obstacle-edge)" stroke-dasharray="3 2"/>`
+  : `<rect x="7" y="3" width="16" height="8" fill="var(--obstacle)" stroke="var(--obstacle-edge)"/>` +
+    `<rect x="4.5" y="0.5" width="21" height="13" rx="2.5" fill="none" stroke="var(--obstacle-edge)" ` +
+    `stroke-dasharray="3 2"/>`);
 
 const roadLegend = drives => [
   {swatch: lineSwatch("road", {width: 2}), label: "road edges"},
   {swatch: lineSwatch("road", {width: 1.2, dash: "6 4"}), label: "reference"},
   ...(drives.some(drive => drive.obstacles.length > 0) ? [{
-    swatch: swatch(`<ellipse cx="15" cy="7" rx="8" ry="4" fill="var(--obstacle)" stroke="var(--obstacle-edge)"/>` +
-      `<ellipse cx="15" cy="7" rx="12" ry="6.4" fill="none" stroke="var(--obstacle-edge)" stroke-dasharray="3 2"/>`),
+    swatch: obstacleSwatch(drives.some(drive => drive.obstacles.some(obstacle => obstacle.shape === "ellipse"))),
     label: "obstacle and its margin",
   }] : []),
 ];

@@ -60,12 +60,13 @@ std::optional<double> LeastShift(const std::vector<Encounter>& all, const Encoun
                                  const sim::Scenario& scenario) {
   const std::vector<Encounter> beside = MetTogether(all, met, scenario.footprint);
   std::vector<Gap> gaps;
-  double right = scenario.road.right;
+  const control::RoadBounds road = scenario.road.At(met.s);
+  double right = road.right;
   for (const Encounter& other : beside) {
     gaps.push_back({.right = right, .left = other.lateral - other.half_width});
     right = std::max(right, other.lateral + other.half_width);
   }
-  gaps.push_back({.right = right, .left = scenario.road.left});
+  gaps.push_back({.right = right, .left = road.left});
 
   const double margin = scenario.footprint.half_width + kBeside;
   std::optional<double> least;

@@ -132,6 +132,8 @@ TEST(Allocations, StepWithTheAffineModelTakesNone) {
   for (int k = 0; k < 200; ++k) step(SolverStatus::kSolved);
   EXPECT_LT(loop.z()[kUpsilon], 0.01) << "it holds";
   loop.obstacles().assign(100, loop.ObstacleAt(85.0, 0.0, 0.5));
+  step(SolverStatus::kSolved);
+  loop.obstacles()[0].X = std::numeric_limits<double>::quiet_NaN();
   step(SolverStatus::kNumericalFailure);
   loop.obstacles().clear();
   loop.mpc().Reset();

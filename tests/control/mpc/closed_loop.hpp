@@ -36,6 +36,7 @@ class ClosedLoop {
       : controller_(&controller),
         reference_(std::move(reference)),
         window_(static_cast<std::size_t>(controller.horizon()) + 1),
+        bounds_(window_.size()),
         z_(reference_[0]) {}
 
   State& z() { return z_; }
@@ -50,8 +51,9 @@ class ClosedLoop {
     reference_.Window(k_, window_);
     return controller_->Step(Asked());
   }
-  [[nodiscard]] TrackingInput Asked() const {
-    return {.z = z_, .u_previous = u_, .reference = window_, .road = road_, .obstacles = obstacles_};
+  [[nodiscard]] TrackingInput Asked() {
+    bounds_.assign(window_.size(), road_);
+    return {.z = z_, .u_previous = u_, .reference = window_, .road = bounds_, .obstacles = obstacles_};
   }
   // Applies the plan's first input for one step.
   void Drive(const Plan& plan) {
@@ -71,6 +73,7 @@ class ClosedLoop {
   TimeReference reference_;
   SingleTrackModel model_{VehicleParameters{}};
   std::vector<State> window_;
+  std::vector<RoadBounds> bounds_;
   std::vector<Obstacle> obstacles_;
   RoadBounds road_;
   State z_;

@@ -1,10 +1,12 @@
 // LpvAffineMpc in closed loop with the nonlinear model.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/mpc/road_loop.hpp"
+#include "tests/control/narrowing.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
@@ -47,6 +49,44 @@ Figures Drive(RoadLoop& loop, double seconds, Done done) {
 
 Figures Drive(RoadLoop& loop, double seconds) {
   return Drive(loop, seconds, [] { return false; });
+}
+
+// Lateral offset and speed error that a lasting disturbance leaves on a straight road at 25 m/s.
+Eigen::Vector2d OffsetOf(const Disturbance& acts, const Disturbance& told) {
+  RoadLoop loop(StraightRoad(600.0, 25.0));
+  loop.Disturb(acts, told);
+  EXPECT_EQ(Drive(loop, 15.0).not_solved, 0);
+  return {loop.lateral(), loop.z()[kUpsilon] - 25.0};
+}
+
+TEST(LpvAffineDrive, DisturbanceLeavesNoOffsetIfTheControllerIsToldOfIt) {
+  const Disturbance offset{.delta_0 = 0.0175};
+  EXPECT_GT(std::abs(OffsetOf(offset, {}).x()), 0.3);
+  EXPECT_LT(std::abs(OffsetOf(offset, offset).x()), 1e-3);
+  const Disturbance bank{.a_y = -1.0};
+  EXPECT_GT(std::abs(OffsetOf(bank, {}).x()), 0.05);
+  EXPECT_LT(std::abs(OffsetOf(bank, bank).x()), 1e-3);
+  const Disturbance slope{.a_x = -1.0};
+  EXPECT_LT(OffsetOf(slope, {}).y(), -0.3);
+  EXPECT_NEAR(OffsetOf(slope, slope).y(), 0.0, 1e-2);
+}
+
+TEST(LpvAffineDrive, PlanKeepsToTheFrictionThatIsFelt) {
+  RoadLoop loop(StraightRoad(600.0, 25.0));
+  loop.PlaceAt(0.0, 10.0);
+  const auto most = [&](double mu_limit) {
+    loop.mpc().Reset();
+    ControllerInput input = loop.Asked();
+    input.mu_limit = mu_limit;
+    const Plan& plan = loop.mpc().Step(input);
+    EXPECT_EQ(plan.status, SolverStatus::kSolved);
+    double a = 0.0;
+    for (const Input& u : plan.u) a = std::max(a, u[kAcceleration]);
+    return a;
+  };
+  EXPECT_GT(most(kNoLimit), 1.2);
+  EXPECT_GT(most(2.0), 1.2);  // no more than configured
+  EXPECT_LT(most(0.05), std::numbers::sqrt2 * 0.9 * 0.05 * kGravity + 0.01);
 }
 
 TEST(LpvAffineDrive, KeepsCloseToAWindingRoadAtTheSpeedOfItsCurves) {
@@ -140,8 +180,20 @@ TEST(LpvAffineDrive, ObstacleThatCrossesIsPassed) {
   }
 }
 
+TEST(LpvAffineDrive, WhereTheRoadNarrowsTheVehicleGivesWay) {
+  // The right edge comes as near as 0.5 m to the road's middle: half the vehicle's width and the margin need 1.0 m.
+  for (const Route& route : {StraightRoad(200.0, 12.0), WindingRoad(40.0, 10.0)}) {
+    RoadLoop loop(route, {}, testing::NarrowingOnTheRight(60.0, 90.0, -0.5));
+    const Figures figures = Drive(loop, 60.0, [&] { return loop.s() > 150.0; });
+    EXPECT_EQ(figures.not_solved, 0);
+    EXPECT_GE(loop.s(), 150.0);
+    EXPECT_GT(figures.road_margin, 0.05);
+    EXPECT_LT(figures.largest_lateral, 1.0);
+  }
+}
+
 TEST(LpvAffineDrive, SlowerVehicleThatCannotBePassedIsFollowed) {
-  RoadLoop loop(StraightRoad(400.0, 12.0), {}, {.left = 2.0, .right = -2.0});
+  RoadLoop loop(StraightRoad(400.0, 12.0), {}, RoadBounds{.left = 2.0, .right = -2.0});
   Obstacle slow = loop.ObstacleAt(40.0, 0.0, 1.0);
   slow.velocity_X = 5.0;
   loop.obstacles() = {slow};

@@ -54,7 +54,7 @@ TEST(LpvAffinePlan, PlanIsWhatTheNonlinearModelDoesWithItsInputs) {
 TEST(LpvAffinePlan, PlanStaysWithinTheFrictionThatThereIs) {
   RoadLoop loop(StraightRoad(300.0, 14.0));
   loop.PlaceAt(0.0, 14.0);
-  loop.obstacles() = {loop.ObstacleAt(62.0, -0.9, 1.2)};
+  loop.obstacles() = {loop.ObstacleAt(62.0, -0.9, 1.4)};
   const double grip = loop.settings().friction_share * loop.settings().mu * 9.81;
   double most_used = 0.0;
   while (loop.s() < 100.0) {
@@ -142,20 +142,23 @@ TEST(LpvAffinePlan, RoadThatIsLeftIsNamedWithStepAndAmount) {
   EXPECT_NEAR(plan.relaxation.amount, 0.4 + settings.road_margin, 0.02);
 }
 
-// The road is closed on both sides and it is too late to stop: road and obstacle contradict each other.
-TEST(LpvAffinePlan, WhereRoadAndObstacleContradictOneAnotherItGivesUpWhatIsMissing) {
+// The gap is 2.2 m wide and the vehicle 1.8 m: 0.3 m on one side and 0.2 m on the other do not fit, and it is too late to
+// stop.
+TEST(LpvAffinePlan, MarginsShrinkToWhatThereIs) {
   LpvAffineSettings settings;
   settings.road_margin = 0.2;
-  RoadLoop loop(StraightRoad(300.0, 12.0), settings, {.left = 1.8, .right = -1.8});
+  RoadLoop loop(StraightRoad(300.0, 12.0), settings, RoadBounds{.left = 1.8, .right = -1.8});
   loop.PlaceAt(50.0, 12.0, 0.5);
-  // The gap on its left is 1.8 − 0.2 − (−1.1 + 0.7 + 0.3) = 1.7 m; the vehicle needs 1.8 m.
   loop.obstacles() = {loop.ObstacleAt(58.0, -1.1, 0.7)};
   const Plan& plan = loop.Ask();
   ASSERT_EQ(plan.status, SolverStatus::kSolved);
-  EXPECT_TRUE(plan.relaxation.constraint.kind == ConstraintKind::kRoad ||
-              plan.relaxation.constraint.kind == ConstraintKind::kObstacle);
-  EXPECT_NEAR(plan.relaxation.amount, 0.1, 0.06);
-  EXPECT_NEAR(plan.z[static_cast<std::size_t>(plan.relaxation.constraint.step)][kX], 58.0, 3.5);
+  EXPECT_LT(plan.relaxation.amount, 0.1);
+  for (const State& z : plan.z) {
+    EXPECT_LT(z[kY] + 0.9, 1.8);
+    if (std::abs(z[kX] - 58.0) < 0.5) {
+      EXPECT_GT(z[kY] - 0.9, -0.4);
+    }
+  }
 }
 
 TEST(LpvAffinePlan, NothingIsGivenUpWhereEverythingFits) {

@@ -215,6 +215,23 @@ TEST(LpvMpc, VehicleStaysOnTheRoad) {
   }
 }
 
+TEST(LpvMpc, EachStepKeepsToTheEdgesBesideIt) {
+  LpvMpc mpc = Make();
+  ClosedLoop loop(mpc, StraightPath(150, 12.0));
+  loop.z()[kY] = 0.5;
+  static_cast<void>(loop.Ask());
+  TrackingInput input = loop.Asked();
+  std::vector<RoadBounds> road(input.reference.size());
+  const std::size_t last = road.size() - 1;
+  road[last].left = 0.1;
+  input.road = road;
+  mpc.Reset();
+  const Plan& plan = mpc.Step(input);
+  ASSERT_EQ(plan.status, SolverStatus::kSolved);
+  EXPECT_LT(plan.z[last][kY], 0.1 + 1e-6);
+  EXPECT_GT(plan.z[last - 1][kY], 0.1) << "it is in no hurry before";
+}
+
 TEST(LpvMpc, WhatStandsInTheWayIsNamedWithTheLeastRelaxation) {
   LpvMpc mpc = Make();
   ClosedLoop loop(mpc, StraightPath(150, 12.0));

@@ -3,14 +3,19 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 #include <vector>
+
+#include "control/road/projection.hpp"
+#include "control/vehicle/steady_cornering.hpp"
+#include "tests/control/narrowing.hpp"
 
 namespace control {
 namespace {
 
 constexpr int kSteps = 40;
 
-class PlanCheckTest : public testing::Test {
+class PlanCheckTest : public ::testing::Test {
  protected:
   static RoadProfile StraightCourse() {
     const std::array pieces{
@@ -27,18 +32,26 @@ class PlanCheckTest : public testing::Test {
     return std::vector<Input>(kSteps, Input(delta, a));
   }
 
+  std::optional<ConstraintViolation> Validate(const State& z, double s, std::span<const Input> u,
+                                              std::span<const Obstacle> obstacles,
+                                              const Disturbance& disturbance = {},
+                                              double mu_limit = kNoLimit) {
+    check_.Begin(z, s, obstacles, disturbance, mu_limit);
+    return check_.Validate(u);
+  }
+
   RoadProfile profile_ = StraightCourse();
   Footprint footprint_{.front = 1.95, .rear = 2.3, .half_width = 0.9};
   PlanCheck check_{{.vehicle = {}, .footprint = footprint_, .mu = 0.7, .t_s = 0.05}, profile_};
 };
 
 TEST_F(PlanCheckTest, StraightOnAnEmptyRoadIsFine) {
-  EXPECT_FALSE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), {}));
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), {}));
 }
 
 TEST_F(PlanCheckTest, AnObstacleIsTouchedByTheFrontAndNotByTheCentreOfGravity) {
   const std::array obstacles{Obstacle{.id = 7, .X = 50.0, .Y = 0.0, .r_x = 1.0, .r_y = 0.5}};
-  const auto violation = check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles);
+  const auto violation = Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles);
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.kind, ConstraintKind::kObstacle);
   EXPECT_EQ(violation->constraint.index, 7);
@@ -50,7 +63,7 @@ TEST_F(PlanCheckTest, AnObstacleIsTouchedByTheFrontAndNotByTheCentreOfGravity) {
 TEST_F(PlanCheckTest, AnObstacleInsideTheRectangleIsTouched) {
   // It is so small, and so far from the edges at both steps, that no edge of the rectangle meets it.
   const std::array obstacles{Obstacle{.id = 1, .X = 20.75, .Y = 0.0, .r_x = 0.05, .r_y = 0.05}};
-  const auto violation = check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles);
+  const auto violation = Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles);
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.step, 1);
 }
@@ -58,7 +71,7 @@ TEST_F(PlanCheckTest, AnObstacleInsideTheRectangleIsTouched) {
 TEST_F(PlanCheckTest, PassingByLessThanAWidthIsTouching) {
   const auto passed_at = [&](double Y) {
     const std::array obstacles{Obstacle{.id = 1, .X = 40.0, .Y = Y, .r_x = 1.0, .r_y = 0.5}};
-    return check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles).has_value();
+    return Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), obstacles).has_value();
   };
   EXPECT_TRUE(passed_at(1.39));
   EXPECT_FALSE(passed_at(1.41));
@@ -66,17 +79,66 @@ TEST_F(PlanCheckTest, PassingByLessThanAWidthIsTouching) {
   EXPECT_FALSE(passed_at(-1.41));
 }
 
+TEST_F(PlanCheckTest, ACornerOfABoxIsTouchedWhereAnEllipseWouldNotBe) {
+  Obstacle obstacle{.id = 5, .X = 40.0, .r_x = 3.0, .r_y = 1.2, .heading = 0.2};
+  const auto passed = [&] {
+    return !Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{obstacle}).has_value();
+  };
+  const double ellipse = std::hypot(3.0 * std::sin(0.2), 1.2 * std::cos(0.2));
+  const double box = 3.0 * std::sin(0.2) + 1.2 * std::cos(0.2);
+  for (const auto& [shape, half_width] :
+       {std::pair{ObstacleShape::kEllipse, ellipse}, std::pair{ObstacleShape::kBox, box}}) {
+    obstacle.shape = shape;
+    obstacle.Y = 0.9 + half_width + 0.01;
+    EXPECT_TRUE(passed());
+    obstacle.Y = 0.9 + half_width - 0.01;
+    EXPECT_FALSE(passed());
+  }
+}
+
 TEST_F(PlanCheckTest, AMovingObstacleIsMetWhereItWillBe) {
   // Once moving, it enters the road and is there at the same time as the vehicle.
   Obstacle crossing{.id = 3, .X = 35.0, .Y = -5.0, .r_x = 0.5, .r_y = 0.5};
-  EXPECT_FALSE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{crossing}));
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{crossing}));
   crossing.velocity_Y = 5.0;
-  EXPECT_TRUE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{crossing}));
+  EXPECT_TRUE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), std::array{crossing}));
+}
+
+TEST_F(PlanCheckTest, WhoFollowsInTheSameLaneOrStandsOffTheRoadIsNotTheVehiclesConcern) {
+  Obstacle behind{.id = 4, .X = 8.0, .Y = 0.3, .r_x = 2.5, .r_y = 0.9, .velocity_X = 20.0};
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, -3.0), std::array{behind}));
+  behind.Y = 2.5;
+  EXPECT_TRUE(Validate(At(20.0, 0.0), 20.0, Constant(0.05, -3.0), std::array{behind}))
+      << "whose lane the vehicle enters";
+}
+
+TEST_F(PlanCheckTest, OncomingObstacleFollowsTheBendOfTheRoad) {
+  const std::array pieces{RoutePiece{.length = 200.0, .curvature_from = 0.02, .curvature_to = 0.02}};
+  const RoadProfile bend(Route::FromPieces({}, 12.0, pieces), RoadBounds{.left = 6.0, .right = -2.0}, {});
+  PlanCheck check({.vehicle = {}, .footprint = footprint_, .mu = 0.7, .t_s = 0.05}, bend);
+  const RoutePoint there = bend.At(45.0);
+  const Eigen::Vector2d centre = Beside(there, 3.5);
+  const Obstacle oncoming{.id = 1,
+                          .X = centre.x(),
+                          .Y = centre.y(),
+                          .r_x = 2.3,
+                          .r_y = 1.0,
+                          .heading = there.psi,
+                          .velocity_X = -12.0 * std::cos(there.psi),
+                          .velocity_Y = -12.0 * std::sin(there.psi)};
+  State z = At(0.0, 0.0);
+  z[kUpsilon] = 12.0;
+  z[kOmega] = 0.24;
+  z[kNu] = z[kUpsilon] * 0.02 * SideslipPerCurvature({}, 12.0);
+  z[kPsi] = -z[kNu] / z[kUpsilon];
+  const std::vector<Input> steady(kSteps, Input(0.02 * SteeringPerCurvature({}, 12.0), 0.0));
+  check.Begin(z, 0.0, std::array{oncoming});
+  EXPECT_FALSE(check.Validate(steady)) << "on a straight line it would come into the vehicle's lane";
 }
 
 TEST_F(PlanCheckTest, ACornerOffTheRoadIsNamedWithItsStep) {
   const double psi = 0.1;
-  const auto violation = check_.Validate(At(20.0, 0.0, psi), 20.0, Constant(0.0, 0.0), {});
+  const auto violation = Validate(At(20.0, 0.0, psi), 20.0, Constant(0.0, 0.0), {});
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.kind, ConstraintKind::kRoad);
   // The front left corner is off the road once 1.95 sin ψ + 0.9 cos ψ + 0.75 i sin ψ exceeds 4 m.
@@ -85,16 +147,68 @@ TEST_F(PlanCheckTest, ACornerOffTheRoadIsNamedWithItsStep) {
 }
 
 TEST_F(PlanCheckTest, WhoIsOffTheRoadMayComeBack) {
-  EXPECT_FALSE(check_.Validate(At(20.0, 3.3, -0.05), 20.0, Constant(0.0, 0.0), {}));
-  EXPECT_TRUE(check_.Validate(At(20.0, 3.3, 0.05), 20.0, Constant(0.0, 0.0), {}));
+  EXPECT_FALSE(Validate(At(20.0, 3.3, -0.05), 20.0, Constant(0.0, 0.0), {}));
+  EXPECT_TRUE(Validate(At(20.0, 3.3, 0.05), 20.0, Constant(0.0, 0.0), {}));
+}
+
+TEST_F(PlanCheckTest, DisturbanceMayDriveThePlanOffTheRoad) {
+  const Disturbance offset{.delta_0 = 0.03};
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), {}));
+  const auto violation = Validate(At(20.0, 0.0), 20.0, Constant(0.0, 0.0), {}, offset);
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->constraint.kind, ConstraintKind::kRoad);
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(-0.03, 0.0), {}, offset));
+}
+
+TEST_F(PlanCheckTest, FrictionThatIsFeltToBeLessCounts) {
+  const std::vector<Input> brake = Constant(0.0, -4.0);
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, brake, {}, {}, 0.8));
+  const auto violation = Validate(At(20.0, 0.0), 20.0, brake, {}, {}, 0.35);
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->constraint.kind, ConstraintKind::kFriction);
+  EXPECT_NEAR(violation->amount, 4.0 - 0.35 * kGravity, 1e-9);
 }
 
 TEST_F(PlanCheckTest, MoreThanTheTyresGiveIsFriction) {
-  const auto violation = check_.Validate(At(20.0, 0.0), 20.0, Constant(0.12, 0.0), {});
+  const auto violation = Validate(At(20.0, 0.0), 20.0, Constant(0.12, 0.0), {});
   ASSERT_TRUE(violation);
   EXPECT_EQ(violation->constraint.kind, ConstraintKind::kFriction);
-  EXPECT_TRUE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, -7.5), {}));
-  EXPECT_FALSE(check_.Validate(At(20.0, 0.0), 20.0, Constant(0.0, -6.0), {}));
+  EXPECT_TRUE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, -7.5), {}));
+  EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(0.0, -6.0), {}));
+}
+
+TEST_F(PlanCheckTest, ACornerInANarrowingIsOffTheRoadByTheEdgeBesideIt) {
+  // The right edge is at −4 + 0.1 (s − 40) from s = 40 m to 75 m: beside the vehicle's side, at −0.9 m, at s = 71 m.
+  const std::array pieces{RoutePiece{.length = 300.0}};
+  const RoadProfile narrowing(Route::FromPieces({}, 15.0, pieces),
+                              testing::NarrowingOnTheRight(40.0, 75.0, -0.5), {});
+  PlanCheck check({.vehicle = {}, .footprint = footprint_, .mu = 0.7, .t_s = 0.05}, narrowing);
+  const auto validate = [&](double Y) {
+    check.Begin(At(45.0, Y), 45.0, {});
+    return check.Validate(Constant(0.0, 0.0));
+  };
+  const auto violation = validate(0.0);
+  ASSERT_TRUE(violation);
+  EXPECT_EQ(violation->constraint.kind, ConstraintKind::kRoad);
+  // The front is at 46.95 + 0.75 i [m] and may be 0.02 m beyond the edge.
+  EXPECT_EQ(violation->constraint.step, static_cast<int>(std::ceil((71.0 + 0.2 - 46.95) / 0.75)));
+  EXPECT_NEAR(violation->amount, 0.1 * (46.95 + 0.75 * violation->constraint.step - 71.0), 1e-3);
+  EXPECT_FALSE(validate(0.5)) << "half a metre to the left, it fits";
+}
+
+TEST_F(PlanCheckTest, WhereTheRoadHasWidenedItsWidthCounts) {
+  const std::array pieces{RoutePiece{.length = 300.0}};
+  const std::array samples{RoadSample{.s = 30.0, .bounds = {.left = 1.0, .right = -1.0}},
+                           RoadSample{.s = 40.0, .bounds = {.left = 4.0, .right = -4.0}}};
+  const RoadProfile widening(Route::FromPieces({}, 15.0, pieces), RoadEdges(samples), {});
+  PlanCheck check({.vehicle = {}, .footprint = footprint_, .mu = 0.7, .t_s = 0.05}, widening);
+  const auto leaves = [&](const State& z) {
+    check.Begin(z, z[kX], {});
+    return check.Validate(Constant(0.0, 0.0)).has_value();
+  };
+  EXPECT_FALSE(leaves(At(45.0, 2.0)));
+  EXPECT_FALSE(leaves(At(10.0, 0.0)));
+  EXPECT_TRUE(leaves(At(10.0, 0.0, 0.03)));
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ namespace control::testing {
 
 class RoadLoop {
  public:
-  explicit RoadLoop(const Route& route, const LpvAffineSettings& settings = {}, const RoadBounds& road = {})
+  explicit RoadLoop(const Route& route, const LpvAffineSettings& settings = {}, const RoadEdges& edges = {})
       : settings_(settings),
-        profile_(route, road, {}),
+        profile_(route, edges, {}),
         mpc_(VehicleParameters{}, profile_, settings),
         model_(BlendedModel(VehicleParameters{}), settings.t_s) {
     PlaceAt(0.0, profile_.At(0.0).speed);
@@ -48,10 +48,20 @@ class RoadLoop {
   LpvAffineMpc& mpc() { return mpc_; }
   [[nodiscard]] const DiscreteModel& model() const { return model_; }
 
+  // From now on, `acts` disturbs the vehicle and the controller is told `told`.
+  void Disturb(const Disturbance& acts, const Disturbance& told) {
+    model_ = DiscreteModel(BlendedModel(VehicleParameters{}, acts), settings_.t_s);
+    told_ = told;
+  }
   // The controller's answer to the present state; nothing moves.
   const Plan& Ask() { return mpc_.Step(Asked()); }
   [[nodiscard]] ControllerInput Asked() const {
-    return {.z = z_, .u_previous = u_, .place = {.s = s_}, .obstacles = obstacles_, .time_left = nullptr};
+    return {.z = z_,
+            .u_previous = u_,
+            .place = {.s = s_},
+            .obstacles = obstacles_,
+            .disturbance = told_,
+            .time_left = nullptr};
   }
   // Applies the plan's first input for one step; obstacles move on.
   void Drive(const Plan& plan) {
@@ -95,8 +105,9 @@ class RoadLoop {
   [[nodiscard]] double RoadMargin() const {
     double least = 1e300;
     for (const Eigen::Vector2d& point : Outline()) {
-      const double lateral = profile_.Project(point, s_).lateral;
-      least = std::min({least, profile_.road().left - lateral, lateral - profile_.road().right});
+      const RouteProjection place = profile_.Project(point, s_);
+      const RoadBounds road = profile_.RoadAt(place.s);
+      least = std::min({least, road.left - place.lateral, place.lateral - road.right});
     }
     return least;
   }
@@ -106,6 +117,7 @@ class RoadLoop {
   RoadProfile profile_;
   LpvAffineMpc mpc_;
   DiscreteModel model_;
+  Disturbance told_;
   std::vector<Obstacle> obstacles_;
   State z_;
   Input u_ = Input::Zero();

@@ -9,6 +9,7 @@
 #include "control/road/projection.hpp"
 #include "control/vehicle/geometry.hpp"
 #include "gtest/gtest.h"
+#include "tests/control/narrowing.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
@@ -42,7 +43,7 @@ class TrackingProblemTest : public ::testing::Test {
 
 TEST_F(TrackingProblemTest, RoadRowsHoldTheEndsOfTheVehicleWithinTheEdgesOfABend) {
   const double radius = 30.0;
-  const RoadProfile bend(testing::CircularRoad(radius, 1.6, 8.0), {.left = 3.0, .right = -5.0}, {});
+  const RoadProfile bend(testing::CircularRoad(radius, 1.6, 8.0), RoadBounds{.left = 3.0, .right = -5.0}, {});
   TrackingProblem tracking({}, bend, kSettings);
   const double turned = 2.5 * std::numbers::pi;  // the road's heading; the measured one is within π of 0
   tracking.Begin(At(radius, radius, 8.0, turned - 2.0 * std::numbers::pi), radius * turned, {});
@@ -50,7 +51,7 @@ TEST_F(TrackingProblemTest, RoadRowsHoldTheEndsOfTheVehicleWithinTheEdgesOfABend
   EXPECT_LT((Position(tracking.reference()[0]) - Position(bend.At(radius * turned))).norm(), 0.05);
   std::vector<State> z_hat(2, tracking.z());
   z_hat[1] += At(0.6, 0.5, 0.0, 0.1);
-  ASSERT_TRUE(tracking.BuildConstraints(z_hat));
+  tracking.BuildConstraints(z_hat);
   ASSERT_EQ(tracking.rows(1).size(), 2U);
   EXPECT_EQ(tracking.rows(1)[0].fixed, Vector2d(1.95, 0.0));
   EXPECT_EQ(tracking.rows(1)[1].fixed, Vector2d(-2.3, 0.0));
@@ -63,12 +64,53 @@ TEST_F(TrackingProblemTest, RoadRowsHoldTheEndsOfTheVehicleWithinTheEdgesOfABend
   }
 }
 
+TEST_F(TrackingProblemTest, EachEndIsHeldWithinTheWidthOfTheRoadBesideIt) {
+  // The road narrows by 0.1 m per metre while the vehicle is in the narrowing.
+  const RoadEdges edges = testing::NarrowingOnTheRight(45.0, 75.0, -1.0);
+  const RoadProfile profile(testing::StraightRoad(400.0, 12.0), edges, {});
+  TrackingProblem tracking({}, profile, kSettings);
+  const std::vector<State> z_hat = Straight(12.0);
+  tracking.Begin(z_hat[0], 50.0, {});
+  tracking.BuildConstraints(z_hat);
+  const double inside = kSettings.footprint.half_width + kSettings.road_margin;
+  for (std::size_t i = 1; i < z_hat.size(); ++i) {
+    ASSERT_EQ(tracking.rows(i).size(), 2U);
+    for (const BodyRow& row : tracking.rows(i)) {
+      const double s = z_hat[i][kX] + row.fixed.x();
+      EXPECT_NEAR(row.lo, -4.0 + 0.1 * std::clamp(s - 45.0, 0.0, 30.0) + inside, 1e-9) << i;
+      EXPECT_NEAR(row.hi, 4.0 - inside, 1e-9) << i;
+    }
+  }
+}
+
+TEST_F(TrackingProblemTest, OnABendAnEndsPlaceIsThatOfItsProjection) {
+  // On the inside of the bend, 20 m from its centre, the front is 1.95 m ahead along the tangent, 2.9 m along the road.
+  const double radius = 30.0, s = 60.0;
+  const RoadEdges edges(
+      std::array{RoadSample{.s = 0.0, .bounds = {.left = 30.0, .right = -30.0}},
+                 RoadSample{.s = 30.0 * 1.9 * std::numbers::pi, .bounds = {.left = 12.0, .right = -30.0}}});
+  const RoadProfile bend(testing::CircularRoad(radius, 1.0, 8.0), edges, {});
+  TrackingProblem tracking({}, bend, kSettings);
+  const RoutePoint point = bend.At(s);
+  const Vector2d place = Beside(point, 10.0);
+  const std::vector<State> z_hat(2, At(place.x(), place.y(), 8.0, point.psi));
+  tracking.Begin(z_hat[0], s, {});
+  tracking.BuildConstraints(z_hat);
+  for (const BodyRow& row : tracking.rows(1)) {
+    const Vector2d end = Position(z_hat[1]) + Rotate(z_hat[1][kPsi], row.fixed);
+    const RoadBounds there = bend.RoadAt(bend.Project(end, s).s);
+    EXPECT_NEAR(row.hi - row.lo,
+                there.left - there.right - 2.0 * (kSettings.footprint.half_width + kSettings.road_margin),
+                0.01);
+  }
+}
+
 TEST_F(TrackingProblemTest, ObstacleRowsKeepTheNearestCornersOutOfWhereItWillBe) {
   Obstacle obstacle = Circle(9, 62.0, -1.5, 0.6);  // there is room on its left only
   obstacle.velocity_X = 2.0;
   const std::vector<State> z_hat = Straight(12.0);
   tracking_.Begin(z_hat[0], 50.0, {&obstacle, 1});
-  ASSERT_TRUE(tracking_.BuildConstraints(z_hat));
+  tracking_.BuildConstraints(z_hat);
   const double radius = 0.6 + kSettings.obstacle_margin;
   for (std::size_t i = 1; i < z_hat.size(); ++i) {
     const Vector2d centre(62.0 + 2.0 * kSettings.t_s * static_cast<double>(i), -1.5);
@@ -93,7 +135,7 @@ TEST_F(TrackingProblemTest, ObstacleRowsKeepTheNearestCornersOutOfWhereItWillBe)
 TEST_F(TrackingProblemTest, OfObstaclesThatBlockTheRoadOnlyTheFirstHasRowsAndTheReferenceEndsBeforeIt) {
   const std::array obstacles{Circle(2, 80.0, 0.0, 3.5), Circle(1, 60.0, 0.0, 3.5)};
   tracking_.Begin(At(50.0, 0.0, 3.0), 50.0, obstacles);
-  ASSERT_TRUE(tracking_.BuildConstraints(Straight(3.0)));
+  tracking_.BuildConstraints(Straight(3.0));
   const double near_end = 60.0 - 3.5;
   for (std::size_t i = 1; i < tracking_.reference().size(); ++i) {
     ASSERT_EQ(ObstacleRows(i).size(), 2U) << i;
@@ -133,16 +175,16 @@ TEST_F(TrackingProblemTest, WaitingVehicleStaysWhereItIsWithTheBrakeAppliedAtIts
   EXPECT_EQ(inputs, (std::vector<Input>{{0.1, -1.5}, {0.1, -1.0}, {0.1, -1.0}}));
 }
 
-TEST_F(TrackingProblemTest, TooManyRowsOrObstaclesAreReported) {
-  const auto fits = [&](std::size_t count, double X) {
-    const std::vector<Obstacle> obstacles(count, Circle(1, X, -3.7, 0.1));
-    tracking_.Begin(At(50.0, 0.0, 12.0), 50.0, obstacles);
-    return tracking_.BuildConstraints(Straight(12.0));
-  };
-  EXPECT_TRUE(fits(7, 62.0)) << "two rows for the road and two for each obstacle";
-  EXPECT_FALSE(fits(8, 62.0));
-  EXPECT_TRUE(fits(PassingPlanner::kMostObstacles, 350.0)) << "they are too far away to have rows";
-  EXPECT_FALSE(fits(PassingPlanner::kMostObstacles + 1, 350.0));
+TEST_F(TrackingProblemTest, OfManyObstaclesBesideAStepTheNearestHaveRows) {
+  std::vector<Obstacle> obstacles;
+  for (int k = 0; k < 60; ++k) obstacles.push_back(Circle(k, 62.0, k % 2 == 0 ? -3.8 + 0.005 * k : 3.9, 0.1));
+  tracking_.Begin(At(50.0, 0.0, 12.0), 50.0, obstacles);
+  EXPECT_EQ(tracking_.manoeuvre().objects.size(), RoadObjects::kMost);
+  EXPECT_EQ(tracking_.manoeuvre().left_out, 60 - RoadObjects::kMost);
+  tracking_.BuildConstraints(Straight(12.0));
+  const auto rows = ObstacleRows(20);
+  ASSERT_EQ(rows.size(), 2 * TrackingProblem::kMostObstacles);
+  for (const BodyRow& row : rows) EXPECT_GT(row.normal.y(), 0.5) << "those on the left are farther away";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ class AffineNmpcProblemTest : public ::testing::Test {
     tracking_ = std::make_unique<TrackingProblem>(VehicleParameters{}, loop_->profile(), settings_);
     problem_ = std::make_unique<AffineNmpcProblem>(VehicleParameters{}, settings_);
     tracking_->Begin(loop_->z(), loop_->s(), loop_->obstacles());
-    EXPECT_TRUE(tracking_->BuildConstraints(tracking_->reference()));
+    tracking_->BuildConstraints(tracking_->reference());
     problem_->Set(*tracking_, {0.02, 0.3});
     x_ = random_.Filled<Eigen::Matrix<double, 400, 1>>(0.5).head(problem_->variables());
     for (int i = 1; i <= settings_.horizon; ++i) x_[problem_->StateAt(i) + kUpsilon] += 5.0 + i;
@@ -72,7 +72,7 @@ TEST_F(AffineNmpcProblemTest, PointOfATrajectoryHasTheSlacksThatItNeeds) {
   std::vector<State> z{tracking_->z()};
   const std::vector<Input> u(static_cast<std::size_t>(settings_.horizon), {0.02, 0.3});
   for (const Input& input : u) z.push_back(loop_->model().Step(z.back(), input));
-  z.back()[kUpsilon] = settings_.upsilon_max + 3.0;
+  z.back()[kUpsilon] = tracking_->SpeedLimit(Index(settings_.horizon)) + 3.0;
   const std::vector<double> x = problem_->PointOf(z, u);
   std::vector<double> g(static_cast<std::size_t>(problem_->rows()));
   problem_->Rows(x, g);

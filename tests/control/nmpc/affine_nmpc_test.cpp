@@ -154,16 +154,6 @@ TEST(AffineNmpc, WarmStartSavesIterations) {
   EXPECT_LT(2 * iterations(true), iterations(false));
 }
 
-TEST(AffineNmpc, ObstaclesThatDoNotFitAreNotIgnored) {
-  RoadLoop loop(StraightRoad(300.0, 12.0));
-  AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings());
-  loop.PlaceAt(20.0, 12.0);
-  loop.obstacles().assign(100, loop.ObstacleAt(28.0, -3.4, 0.5));
-  EXPECT_EQ(nmpc.Step(loop.Asked()).status, SolverStatus::kNumericalFailure);
-  loop.obstacles().resize(1);
-  EXPECT_EQ(nmpc.Step(loop.Asked()).status, SolverStatus::kSolved);
-}
-
 TEST(AffineNmpc, LimitOfIterationsIsReportedAsSuch) {
   RoadLoop loop(StraightRoad(200.0, 12.0));
   AffineNmpc nmpc(VehicleParameters{}, loop.profile(), loop.settings(), {.max_iterations = 1});

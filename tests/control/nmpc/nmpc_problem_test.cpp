@@ -74,16 +74,23 @@ class NmpcProblemTest : public ::testing::Test {
   static constexpr int kHorizon = 5;
   static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
+  static std::vector<RoadBounds> RoadThatNarrows() {
+    std::vector<RoadBounds> road;
+    for (int i = 0; i <= kHorizon; ++i) road.push_back({.left = 4.0 - 0.2 * i, .right = -1.0 + 0.1 * i});
+    return road;
+  }
   [[nodiscard]] TrackingInput Asked() const {
     return {.z = window_[0],
             .u_previous = {0.02, 0.3},
             .reference = window_,
-            .road = {.left = 4.0, .right = -1.0},
+            .road = road_,
             .obstacles = obstacles_};
   }
   Random random_{11};
   TimeReference reference_;
   std::vector<State> window_;
+  // Each step has edges of its own.
+  std::vector<RoadBounds> road_ = RoadThatNarrows();
   std::vector<Obstacle> obstacles_;
   MpcSettings settings_;
   std::unique_ptr<NmpcProblem> problem_;
@@ -106,6 +113,35 @@ TEST_F(NmpcProblemTest, PatternFollowsTheNumberOfObstacles) {
   obstacles_.pop_back();
   problem_->Set(Asked());
   testing::ExpectJacobianOfRows(*problem_, x_);
+}
+
+TEST_F(NmpcProblemTest, EachStepHasTheEdgesOfTheRoadBesideIt) {
+  reference_ = testing::StraightPath(60, 12.0);  // along X
+  reference_.Window(0, window_);
+  problem_->Set(Asked());
+  const int step_rows = problem_->rows() / kHorizon;
+  constexpr int kRoadRow = kStates + kInputs;
+  for (int i = 0; i < kHorizon; ++i) {
+    const std::size_t row = Index(i * step_rows + kRoadRow);
+    EXPECT_NEAR(problem_->row_bounds().hi[row], road_[Index(i) + 1].left, 1e-12) << i;
+    EXPECT_NEAR(problem_->row_bounds().lo[row], road_[Index(i) + 1].right, 1e-12) << i;
+  }
+}
+
+TEST_F(NmpcProblemTest, BoxIsKeptOutsideTheEllipseThroughItsCorners) {
+  const auto rows = [&] {
+    problem_->Set(Asked());
+    VectorXd g(problem_->rows());
+    problem_->Rows(Span(std::as_const(x_)), Span(g));
+    return g;
+  };
+  obstacles_[0].shape = ObstacleShape::kBox;
+  const VectorXd of_box = rows();
+  obstacles_[0].shape = ObstacleShape::kEllipse;
+  EXPECT_GT((rows() - of_box).norm(), 0.1);
+  obstacles_[0].r_x *= std::numbers::sqrt2;
+  obstacles_[0].r_y *= std::numbers::sqrt2;
+  EXPECT_LT((rows() - of_box).norm(), 1e-9);
 }
 
 TEST_F(NmpcProblemTest, ReferenceAtRestOnItselfViolatesNothingButWhatStandsInItsWay) {

@@ -92,6 +92,31 @@ TEST(ObstacleHalfSpace, IsTheTangentWhereTheRoadsNormalLeavesTheEllipse) {
   }
 }
 
+TEST(ObstacleHalfSpace, OfABoxExcludesTheWholeBox) {
+  testing::Random random(3);
+  int found = 0;
+  for (int i = 0; i < 300; ++i) {
+    Obstacle box = RandomObstacle(random, random.Chance(0.5) ? PassingSide::kLeft : PassingSide::kUnknown);
+    box.shape = ObstacleShape::kBox;
+    const Eigen::Rotation2Dd turn(box.heading);
+    const Vector2d point =
+        turn * Vector2d(random.Uniform(-1.0, 1.0) * box.r_x, random.Uniform(-1.0, 1.0) * box.r_y);
+    const auto halfspace =
+        ObstacleHalfSpace(box, At(box.X + point.x(), box.Y + point.y(), random.Uniform(-kPi, kPi)), 0.0);
+    ASSERT_TRUE(halfspace) << "a point of the box is outside";
+    double largest = -1e300;
+    for (const double ahead : {-1.0, 1.0}) {
+      for (const double left : {-1.0, 1.0}) {
+        const Vector2d corner = Vector2d(box.X, box.Y) + turn * Vector2d(ahead * box.r_x, left * box.r_y);
+        largest = std::max(largest, Distance(*halfspace, corner));
+      }
+    }
+    EXPECT_LT(largest, 1e-9);
+    found += static_cast<int>(largest > -0.05);
+  }
+  EXPECT_GT(found, 30) << "no edge is near a corner";
+}
+
 TEST(ObstacleHalfSpace, OfACircleIsAtItsRadiusFromTheCentre) {
   const Obstacle circle{
       .X = 10.0, .Y = 0.3, .r_x = 1.0, .r_y = 1.0, .heading = 0.7, .side = PassingSide::kLeft};

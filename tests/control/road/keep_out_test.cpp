@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -31,9 +32,22 @@ Vector2d OnEllipse(const Obstacle& o, double margin, double angle) {
   return Vector2d(o.X, o.Y) + Eigen::Rotation2Dd(o.heading) * local;
 }
 
-// The circumference's farthest point in a direction, relative to the obstacle's centre.
+// A box's corners, relative to its centre.
+std::array<Vector2d, 4> CornersOf(const Obstacle& o) {
+  const Eigen::Rotation2Dd turn(o.heading);
+  return {turn * Vector2d(o.r_x, o.r_y), turn * Vector2d(-o.r_x, o.r_y), turn * Vector2d(-o.r_x, -o.r_y),
+          turn * Vector2d(o.r_x, -o.r_y)};
+}
+
+// The edge's farthest point in a direction, relative to the obstacle's centre.
 Vector2d Farthest(const Obstacle& o, double margin, const Vector2d& direction) {
   Vector2d farthest = Vector2d::Zero();
+  if (o.shape == ObstacleShape::kBox) {
+    for (const Vector2d& corner : CornersOf(o)) {
+      if (corner.dot(direction) > farthest.dot(direction)) farthest = corner;
+    }
+    return farthest + margin * direction;
+  }
   for (int k = 0; k < 720; ++k) {
     const Vector2d point = OnEllipse(o, margin, k * kPi / 360) - Vector2d(o.X, o.Y);
     if (point.dot(direction) > farthest.dot(direction)) farthest = point;
@@ -43,6 +57,10 @@ Vector2d Farthest(const Obstacle& o, double margin, const Vector2d& direction) {
 
 bool Inside(const Obstacle& o, double margin, const Vector2d& point) {
   const Vector2d local = Eigen::Rotation2Dd(-o.heading) * (point - Vector2d(o.X, o.Y));
+  if (o.shape == ObstacleShape::kBox) {
+    const Vector2d beyond = (local.cwiseAbs() - Vector2d(o.r_x, o.r_y)).cwiseMax(0.0);
+    return margin > 0.0 ? beyond.norm() < margin - 1e-9 : beyond.norm() == 0.0;
+  }
   return std::hypot(local.x() / (o.r_x + margin), local.y() / (o.r_y + margin)) < 1.0 - 1e-9;
 }
 
@@ -65,7 +83,8 @@ struct Encounter {
                     .Y = Between(-50.0, 50.0),
                     .r_x = Between(0.1, 5.0),
                     .r_y = Between(0.1, 5.0),
-                    .heading = Between(-kPi, kPi)};
+                    .heading = Between(-kPi, kPi),
+                    .shape = *rc::gen::element(ObstacleShape::kEllipse, ObstacleShape::kBox)};
   PassingSide side = *rc::gen::element(PassingSide::kLeft, PassingSide::kRight);
   double psi_road = Between(-kPi, kPi);
   double margin = Between(0.0, 0.5);
@@ -152,6 +171,38 @@ TEST(PassingHalfSpace, BeforeTheObstacleItsEdgeTurnsTowardsTheVehicle) {
   EXPECT_NEAR(right.b, -before.b, 1e-9);
 }
 
+TEST(PassingHalfSpace, BeforeABoxItsEdgeTurnsAboutTheCornerAndIsAlongTheRoadBesideIt) {
+  const Obstacle lorry{.X = 10.0, .Y = 1.0, .r_x = 8.0, .r_y = 1.25, .shape = ObstacleShape::kBox};
+  constexpr double kMargin = 0.4;
+  const auto left = [&](double front) {
+    const State z = AtObstacle(lorry, 0.0, front - kCar.front, 0.0);
+    return *PassingHalfSpace(lorry, PassingSide::kLeft, z, 0.0, kCar, kMargin, 1.0);
+  };
+  // The front is beside the lorry: its side and the margin.
+  for (const double front : {-8.0, -3.0, 8.0}) {
+    EXPECT_NEAR(left(front).a, 0.0, 1e-12);
+    EXPECT_NEAR(left(front).b, 1.0, 1e-12);
+    EXPECT_NEAR(left(front).c, 1.0 + 1.25 + kMargin, 1e-12);
+  }
+  // The front is half the margin short of the lorry: the arc's normal leans back by 30°, about the corner.
+  const HalfSpace before = left(-8.2);
+  EXPECT_NEAR(before.a, -0.5, 1e-9);
+  EXPECT_NEAR(Distance(before, {2.0, 2.25}), -kMargin, 1e-9);
+  // Further away, it is 45° however steep the lorry's rear is.
+  EXPECT_NEAR(left(-8.6).a, -std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(left(-9.0).a, -std::sqrt(0.5), 1e-12);
+}
+
+TEST(PassingHalfSpace, ASideOfABoxAtAnAngleIsFollowed) {
+  const Obstacle box{
+      .X = 0.0, .Y = 0.0, .r_x = 4.0, .r_y = 1.0, .heading = 0.3, .shape = ObstacleShape::kBox};
+  // Its left side rises from the rear corner to the front corner; the vehicle's front is in between.
+  const State z = AtObstacle(box, 0.0, -kCar.front, 0.0);
+  const HalfSpace outside = *PassingHalfSpace(box, PassingSide::kLeft, z, 0.0, kCar, 0.0, 1.0);
+  EXPECT_NEAR(outside.a, -std::sin(0.3), 1e-12);
+  EXPECT_NEAR(outside.c, 1.0, 1e-12);
+}
+
 RC_GTEST_PROP(HalfSpaceBefore, EndsAtTheObstacleAcrossTheRoad, ()) {
   const Encounter e;
   const HalfSpace outside = HalfSpaceBefore(e.obstacle, e.psi_road, e.margin);
@@ -177,7 +228,9 @@ TEST(Predict, ChangesThePlaceAlone) {
                         .heading = 0.3,
                         .velocity_X = -2.0,
                         .velocity_Y = 4.0,
-                        .side = PassingSide::kRight};
+                        .side = PassingSide::kRight,
+                        .shape = ObstacleShape::kBox,
+                        .object_class = ObstacleClass::kVehicle};
   const Obstacle after = Predict(before, 0.5);
   EXPECT_EQ(after.X, 0.0);
   EXPECT_EQ(after.Y, 4.0);
@@ -186,6 +239,8 @@ TEST(Predict, ChangesThePlaceAlone) {
   EXPECT_EQ(after.r_y, before.r_y);
   EXPECT_EQ(after.heading, before.heading);
   EXPECT_EQ(after.side, before.side);
+  EXPECT_EQ(after.shape, before.shape);
+  EXPECT_EQ(after.object_class, before.object_class);
 }
 
 }  // namespace

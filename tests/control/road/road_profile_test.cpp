@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "gtest/gtest.h"
+#include "tests/control/narrowing.hpp"
 #include "tests/control/roads.hpp"
 
 namespace control {
@@ -81,6 +82,15 @@ TEST(RoadProfile, SpeedKeepsToTheTargetTheCurvesAndTheBrakes) {
   EXPECT_EQ(profile.At(route.length()).speed, 0.0);
   EXPECT_EQ(profile.At(route.length() + 5.0).speed, 0.0);
   EXPECT_EQ(profile.At(-5.0).speed, profile.At(0.0).speed);
+}
+
+TEST(RoadProfile, EdgesAreThoseOfTheRoadAtEachPlace) {
+  const RoadProfile profile(WindingRoad(kRadius, 12.0), testing::NarrowingOnTheRight(50.2, 60.2, -1.0), {});
+  EXPECT_EQ(profile.RoadAt(-5.0).right, -4.0);
+  EXPECT_NEAR(profile.RoadAt(51.2).right, -3.7, 1e-12);
+  EXPECT_NEAR(profile.RoadAt(55.2).right, -2.5, 1e-12);
+  EXPECT_EQ(profile.RoadAt(profile.length() + 5.0).right, -1.0);
+  EXPECT_EQ(profile.RoadAt(55.2).left, 4.0);
 }
 
 TEST(RoadProfile, SlowerPieceIsReachedSlowly) {

@@ -92,6 +92,29 @@ TEST(Route, SplineThroughPointsOfACircleKeepsCloseToIt) {
   EXPECT_NEAR(route.At(300.0).psi - route.At(20.0).psi, 3.5, 0.01);  // continuous beyond pi
 }
 
+TEST(Route, SpeedGoesLinearlyToThatOfEachWaypoint) {
+  const std::vector<Vector2d> waypoints{{0.0, 0.0}, {20.0, 3.0}, {35.0, 15.0}, {60.0, 12.0}};
+  const std::vector<double> speeds{12.0, 8.0, 8.0, 20.0};
+  const Route route = Route::ThroughWaypoints(waypoints, speeds);
+  ASSERT_EQ(route.knots().size(), waypoints.size());
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const double s = route.knots()[i];
+    EXPECT_NEAR((PositionAt(route, s) - waypoints[i]).norm(), 0.0, 1e-9) << i;
+    EXPECT_NEAR(route.At(s).speed, speeds[i], 1e-9) << i;
+    if (i > 0) {
+      EXPECT_NEAR(route.At(0.5 * (route.knots()[i - 1] + s)).speed, 0.5 * (speeds[i - 1] + speeds[i]), 1e-9);
+    }
+  }
+  EXPECT_NEAR(route.ArcLengthAt(route.duration()), route.length(), 1e-9);
+}
+
+TEST(Route, KnotsAreStartAndEndsOfThePieces) {
+  const Route route = Mixed();
+  const std::vector<double> expected{0.0, 40.0, 70.0, 130.0, 180.0};
+  ASSERT_EQ(route.knots().size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(route.knots()[i], expected[i], 1e-9);
+}
+
 TEST(Route, TwoWaypointsAreAStraightLine) {
   const std::vector<Vector2d> waypoints{{1.0, 1.0}, {4.0, 5.0}};
   const Route route = Route::ThroughWaypoints(waypoints, 10.0);
@@ -195,6 +218,11 @@ TEST(Route, ValueThatMakesNoRouteIsRefused) {
   EXPECT_THROW((void)Route::ThroughWaypoints(single, 1.0), std::invalid_argument);
   EXPECT_THROW((void)Route::ThroughWaypoints(repeated, 1.0), std::invalid_argument);
   EXPECT_THROW((void)Route::ThroughWaypoints(infinite, 1.0), std::invalid_argument);
+  const std::vector<Vector2d> two{{0.0, 0.0}, {1.0, 0.0}};
+  EXPECT_NO_THROW((void)Route::ThroughWaypoints(two, std::vector{1.0, 2.0}));
+  EXPECT_THROW((void)Route::ThroughWaypoints(two, std::vector{1.0}), std::invalid_argument);
+  EXPECT_THROW((void)Route::ThroughWaypoints(two, std::vector{1.0, 0.0}), std::invalid_argument);
+  EXPECT_THROW((void)Route::ThroughWaypoints(two, std::vector{1.0, nan}), std::invalid_argument);
 }
 
 }  // namespace

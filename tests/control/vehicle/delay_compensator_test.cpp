@@ -56,6 +56,15 @@ TEST(DelayCompensator, TheAgeOfTheStateIsMadeUpForToo) {
   EXPECT_LT((delay.Predict(Moving(), 0.04) - expected).norm(), 1e-4);
 }
 
+TEST(DelayCompensator, DisturbanceActsMeanwhile) {
+  DelayCompensator delay({}, kPeriod, 0.1);
+  const State z = delay.Predict(Moving(), 0.0, {.delta_0 = 0.02, .a_x = -1.0});
+  DelayCompensator steered({}, kPeriod, 0.1);
+  steered.Reset({0.02, -1.0});
+  EXPECT_EQ(z, steered.Predict(Moving(), 0.0));
+  EXPECT_NE(z, delay.Predict(Moving(), 0.0));
+}
+
 TEST(DelayCompensator, AfterAResetTheGivenInputsHaveAlwaysActed) {
   DelayCompensator delay({}, kPeriod, 0.2);
   delay.Record({0.4, -5.0});

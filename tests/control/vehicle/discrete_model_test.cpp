@@ -59,6 +59,38 @@ TEST_F(DiscreteModelTest, DerivativesOfTheModelAndOfItsStepAreThoseOfTheirDiffer
   }
 }
 
+TEST_F(DiscreteModelTest, DerivativesAreThoseOfTheDifferencesUnderADisturbanceToo) {
+  const Disturbance disturbance{.delta_0 = 0.02, .a_y = 0.8, .a_x = -0.5, .stiffness_factor = 0.7};
+  const BlendedModel disturbed(VehicleParameters{}, disturbance);
+  const DiscreteModel step(disturbed, kTs);
+  for (double upsilon = 0.0; upsilon < 35.0; upsilon += 0.37) {
+    const State z = RandomState(upsilon);
+    const Input u = RandomInput();
+    ExpectDerivatives(disturbed.Jacobian(z, u), z, u, 1e-5,
+                      [&](const State& x, const Input& v) { return disturbed.Derivative(x, v); });
+    const AffineModel expansion = step.Expand(z, u);
+    ExpectDerivatives(expansion.linear, z, u, 1e-7,
+                      [&](const State& x, const Input& v) { return step.Step(x, v); });
+    const State value = expansion.linear.A * z + expansion.linear.B * u + expansion.c;
+    EXPECT_LT((value - step.Step(z, u)).cwiseAbs().maxCoeff(), 1e-12) << upsilon;
+  }
+}
+
+TEST_F(DiscreteModelTest, DisturbanceIsAnotherInputOtherTyresAndALateralAcceleration) {
+  const Disturbance disturbance{.delta_0 = 0.02, .a_y = 0.8, .a_x = -0.5, .stiffness_factor = 0.7};
+  const BlendedModel disturbed(VehicleParameters{}, disturbance);
+  VehicleParameters soft;
+  soft.C_alpha_f *= 0.7;
+  soft.C_alpha_r *= 0.7;
+  for (double upsilon = BlendedModel::kUpsilon2; upsilon < 40.0; upsilon += 1.3) {
+    const State z = RandomState(upsilon);
+    const Input u = RandomInput();
+    State expected = SingleTrackModel(soft).Derivative(z, u + Input(0.02, -0.5));
+    expected[kNu] += 0.8;
+    EXPECT_LT((disturbed.Derivative(z, u) - expected).cwiseAbs().maxCoeff(), 1e-12) << upsilon;
+  }
+}
+
 TEST_F(DiscreteModelTest, FastTheModelIsTheDynamicOne) {
   const SingleTrackModel dynamic{VehicleParameters{}};
   for (double upsilon = BlendedModel::kUpsilon2; upsilon < 40.0; upsilon += 1.3) {

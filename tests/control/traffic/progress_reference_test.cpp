@@ -1,4 +1,4 @@
-#include "control/road/progress_reference.hpp"
+#include "control/traffic/progress_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,33 @@ struct Filled {
   std::vector<double> s;
 
   Filled(const RoadProfile& profile, double s_0, double upsilon, std::span<const StopLine> stops,
-         double seconds = 2.0)
+         double seconds = 2.0, const Disturbance& disturbance = {})
       : z(static_cast<std::size_t>(std::lround(seconds / kTs)) + 1), u(z.size() - 1), s(z.size()) {
-    ProgressReference({}, profile, kTs).Fill(s_0, upsilon, stops, z, u, s);
+    Manoeuvre manoeuvre;
+    std::ranges::copy(stops, manoeuvre.stop_lines.begin());
+    manoeuvre.stop_count = stops.size();
+    ProgressReference({}, profile, kTs).Fill(s_0, upsilon, manoeuvre, z, u, s, disturbance);
   }
 };
+
+TEST(ProgressReference, UnderADisturbanceItsStatesAreSteadyTooAndRunAlongTheRoad) {
+  const Disturbance disturbance{.delta_0 = 0.02, .a_y = 0.8, .a_x = -0.5, .stiffness_factor = 0.7};
+  const BlendedModel model(VehicleParameters{}, disturbance);
+  for (const double speed : {8.5, 12.0, 20.0}) {
+    const double radius = speed * speed / 3.0;
+    const RoadProfile profile(testing::CircularRoad(radius, 1.0, speed), {}, {.lateral = 4.0});
+    const Filled reference(profile, 1.0, speed, {}, 0.5, disturbance);
+    for (std::size_t i = 0; i < reference.u.size(); ++i) {
+      const State& z = reference.z[i];
+      const State derivative = model.Derivative(z, reference.u[i]);
+      EXPECT_NEAR(derivative[kUpsilon], z[kOmega] * z[kNu], 1e-9);
+      // The remainder is due to cos δ.
+      EXPECT_LT(std::abs(derivative[kNu]), 0.05) << speed;
+      EXPECT_LT(std::abs(derivative[kOmega]), 0.03) << speed;
+      EXPECT_NEAR(z[kPsi] + z[kNu] / z[kUpsilon], profile.At(reference.s[i]).psi, 1e-12);
+    }
+  }
+}
 
 TEST(ProgressReference, OnABendItsStatesAreThoseOfSteadyCornering) {
   const BlendedModel model{VehicleParameters{}};

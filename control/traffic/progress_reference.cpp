@@ -1,0 +1,75 @@
+#include "control/traffic/progress_reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/road/projection.hpp"
+#include "control/vehicle/steady_cornering.hpp"
+
+namespace control {
+namespace {
+
+// Difference from the profile up to which the reference ignores the measured speed, so that noise does not become an
+// acceleration [m/s].
+constexpr double kSpeedTolerance = 0.5;
+// Multiple of the comfortable deceleration at which the vehicle brakes to catch up with a profile.
+constexpr double kHarder = 1.5;
+// Least length of the path per length of the road, on the inside of a bend.
+constexpr double kLeastStretch = 0.2;
+
+}  // namespace
+
+double ProgressReference::SpeedAt(double s, double t, const Manoeuvre& manoeuvre) const {
+  const double limit = std::min(profile_->At(s).speed, manoeuvre.SpeedLimitAt(s));
+  return std::min(limit, SpeedBefore(manoeuvre.stops(), s, t, profile_->limits().deceleration));
+}
+
+// The vehicle brakes a little harder than comfortable to catch up with a profile, and as hard as necessary before a
+// near stop line.
+double ProgressReference::Deceleration(double s, double upsilon, std::span<const StopLine> stops) const {
+  const SpeedLimits& limits = profile_->limits();
+  double hardest = kHarder * limits.deceleration;
+  for (const StopLine& stop : stops) {
+    const double closing = std::max(upsilon - stop.speed, 0.0);
+    const double needed =
+        closing * closing / (2.0 * std::max(stop.s + stop.spare - s, RoadProfile::kStopWithin));
+    hardest = std::max(hardest, std::min(needed, limits.emergency));
+  }
+  return hardest;
+}
+
+void ProgressReference::Fill(double s_0, double upsilon, const Manoeuvre& manoeuvre, std::span<State> z,
+                             std::span<Input> u, std::span<double> s, const Disturbance& disturbance) const {
+  const VehicleParameters vehicle = Disturbed(vehicle_, disturbance);
+  const double slip = SideslipPerAcceleration(vehicle) * disturbance.a_y;
+  const double steering = -UndersteerGradient(vehicle) * disturbance.a_y - disturbance.delta_0;
+  const double up = profile_->limits().acceleration * t_s_;
+  const double down = Deceleration(s_0, upsilon, manoeuvre.stops()) * t_s_;
+
+  double place = s_0;
+  double speed = std::clamp(SpeedAt(place, 0.0, manoeuvre), std::max(upsilon - kSpeedTolerance, 0.0),
+                            std::max(upsilon, 0.0) + kSpeedTolerance);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const RoutePoint road = profile_->At(place);
+    const LateralPoint path = manoeuvre.path.At(place);
+    const double stretch = std::max(1.0 - road.curvature * path.offset, kLeastStretch);
+    const double theta = std::atan2(path.slope, stretch), cosine = std::cos(theta);
+    const double curvature = (path.bend * cosine * cosine / stretch + road.curvature) * cosine / stretch;
+    const Eigen::Vector2d point = Beside(road, path.offset);
+    const double lever = SideslipPerCurvature(vehicle, speed);
+    z[i] << point.x(), point.y(), speed, curvature * speed * lever + speed * slip,
+        road.psi + theta - curvature * lever - slip, curvature * speed;
+    s[i] = place;
+    if (i == u.size()) break;
+    const double t = static_cast<double>(i + 1) * t_s_;
+    const double along = cosine / stretch * t_s_;
+    const double next =
+        std::clamp(SpeedAt(place + speed * along, t, manoeuvre), std::max(speed - down, 0.0), speed + up);
+    u[i] << curvature * SteeringPerCurvature(vehicle, speed) + steering,
+        (next - speed) / t_s_ - disturbance.a_x;
+    place += 0.5 * (speed + next) * along;
+    speed = next;
+  }
+}
+
+}  // namespace control

@@ -1,0 +1,42 @@
+// An object beside or on the road, in road coordinates, and its motion in the next seconds: an object that moves along
+// the road keeps its speed and follows the road's bends, one that crosses the road moves straight.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "control/road/road_profile.hpp"
+#include "control/vehicle/types.hpp"
+
+namespace control {
+
+struct RoadObject {
+  // Time for which an object that moves along the road is assumed to keep its lateral velocity [s].
+  static constexpr double kDrift = 2.0;
+
+  std::size_t index = 0;     // in the list of obstacles
+  double s = 0.0;            // arc length of the centre [m]
+  double lateral = 0.0;      // of the centre, left positive [m]
+  double speed = 0.0;        // along the road [m/s]
+  double drift = 0.0;        // lateral velocity, left positive [m/s]
+  double half_length = 0.0;  // along the road [m]
+  double half_width = 0.0;   // across the road [m]
+  bool crosses = false;      // moves across the road rather than along it
+  PassingSide side = PassingSide::kUnknown;
+  ObstacleClass object_class = ObstacleClass::kUnknown;
+
+  [[nodiscard]] double SAt(double t) const { return s + speed * t; }
+  [[nodiscard]] double LateralAt(double t) const {
+    return lateral + drift * (crosses ? t : std::min(t, kDrift));
+  }
+};
+
+// The obstacle in road coordinates, beside the road's point nearest to it by local search from s = `hint` [m].
+[[nodiscard]] RoadObject PlaceOnRoad(const Obstacle& obstacle, std::size_t index, const RoadProfile& profile,
+                                     double hint);
+
+// The obstacle `time` [s] later, moved as the road object is.
+[[nodiscard]] Obstacle Predict(const Obstacle& obstacle, const RoadObject& object, const RoadProfile& profile,
+                               double time);
+
+}  // namespace control
