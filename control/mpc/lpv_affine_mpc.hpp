@@ -5,7 +5,7 @@
 //
 // with F of control/vehicle/discrete_model.hpp. So a change of heading moves the vehicle inside the QP, too, and one QP
 // is one iteration of sequential quadratic programming. The controller knows the road itself and needs no reference
-// window (control/road/progress_reference.hpp).
+// window (control/traffic/progress_reference.hpp).
 //
 //   min   Σ |z_i − z_ref_i|²_Q + |u_i − u_ref_i|²_R + |Δu_i|²_R_rate + penalties
 //   hard  |Δu_i| ≤ rate_max, u_min ≤ u_i ≤ u_max

@@ -16,9 +16,10 @@ constexpr double kSteepest = 0.45;     // largest slope of a way
 constexpr double kChange = 0.7;        // cost of passing an object on another side than before [s]
 constexpr double kUnfinished =
     3.0;  // cost of being beside an object at the end, per metre off the centre [s/m]
-constexpr double kBeyondGrip = 6.0;  // cost of a lateral move per second and multiple of the grip beyond it
-constexpr double kAlong = 0.5;       // speed along the road from which an object is overtaken [m/s]
-constexpr double kOtherSide = 1e3;   // where an object that must be passed on one side seems to end [m]
+constexpr double kBeyondGrip = 6.0;    // cost of a lateral move per second and multiple of the grip beyond it
+constexpr double kAlong = 0.5;         // speed along the road from which an object is overtaken [m/s]
+constexpr double kSpeedAtEdge = 40.0;  // speed at which the usual margin to the road's edges is wanted [m/s]
+constexpr double kOtherSide = 1e3;     // where an object that must be passed on one side seems to end [m]
 
 }  // namespace
 
@@ -79,9 +80,10 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
   }
   const RoadBounds road = NarrowestAt(stations.At(j), stations.spacing);
   const double edge = squeeze ? 0.0 : std::min(0.05, settings_.road_margin);
-  const Covered outside{.right = road.left,
-                        .left = road.right,
-                        .margin = {.least = edge, .wanted = squeeze ? edge : settings_.road_margin}};
+  const Covered outside{
+      .right = road.left,
+      .left = road.right,
+      .margin = {.least = edge, .wanted = squeeze ? edge : settings_.road_margin, .speed = kSpeedAtEdge}};
   gaps_[j].Find(outside, {covered_.data(), count}, half_width);
 }
 

@@ -7,14 +7,15 @@
 namespace control {
 namespace {
 
-constexpr double kShortest = 40.0;     // least length of road that is planned for [m]
-constexpr double kMoving = 0.5;        // speed from which an object moves [m/s]
-constexpr double kSameTimes = 0.3;     // difference of arrival times that does not matter [s]
-constexpr double kWorthwhile = 1.0;    // cost from which going is compared with staying behind [s]
-constexpr double kHysteresis = 0.7;    // [s]
-constexpr int kReopened = 4;           // cycles for which the way must be free before the vehicle goes again
-constexpr double kShareOfGrip = 0.75;  // of the grip that a path may use
-constexpr double kNearPath = 0.5;  // offset from its path up to which the vehicle is taken to be on it [m]
+constexpr double kShortest = 40.0;    // least length of road that is planned for [m]
+constexpr double kMoving = 0.5;       // speed from which an object moves [m/s]
+constexpr double kSameTimes = 0.3;    // difference of arrival times that does not matter [s]
+constexpr double kWorthwhile = 1.0;   // cost from which going is compared with staying behind [s]
+constexpr double kHysteresis = 0.7;   // [s]
+constexpr int kReopened = 4;          // cycles for which the way must be free before the vehicle goes again
+constexpr int kGivenUp = 4;           // cycles after which a way for which the vehicle is late is given up
+constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
+constexpr double kNearPath = 0.5;     // offset from its path up to which the vehicle is taken to be on it [m]
 
 }  // namespace
 
@@ -32,7 +33,7 @@ TrafficPlanner::TrafficPlanner(const TrafficSettings& settings, const RoadProfil
 void TrafficPlanner::Reset() {
   kept_by_id_.fill(Side::kNone);
   stays_behind_ = false;
-  open_cycles_ = 0;
+  open_cycles_ = late_cycles_ = 0;
   manoeuvre_ = {};
 }
 
@@ -163,7 +164,7 @@ bool TrafficPlanner::CanStop(const Candidate& candidate, const RoadPosition& veh
 void TrafficPlanner::Evaluate(const RoadPosition& vehicle, bool squeeze, Candidate& candidate) {
   const auto objects = objects_.objects();
   const std::span stops(candidate.stop_lines.data(), candidate.stop_count);
-  candidate.possible = false;
+  candidate.possible = candidate.late = false;
   candidate.blocker.reset();
   candidate.speeds =
       PlanSpeed(stations_, road_speed_, stops, vehicle.speed, profile_->limits(), settings_.horizon);
@@ -190,6 +191,7 @@ void TrafficPlanner::Evaluate(const RoadPosition& vehicle, bool squeeze, Candida
   std::size_t touched = 0;
   if (Collides(candidate, touched)) {
     candidate.blocker = touched;
+    candidate.late = true;
     return;
   }
   candidate.possible = true;
@@ -236,6 +238,9 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
       stay = behind_.cost < go_.cost + (stays_behind_ ? kHysteresis : -kHysteresis);
     }
   }
+  // A way that was free is not given up because of a single cycle.
+  late_cycles_ = go_.late ? late_cycles_ + 1 : 0;
+  if (!stays_behind_ && go_.late && late_cycles_ < kGivenUp && CanStop(behind_, vehicle)) stay = false;
   open_cycles_ = stay ? 0 : open_cycles_ + 1;
   if (stays_behind_ && behind_.possible && open_cycles_ < kReopened) stay = true;
 

@@ -50,6 +50,7 @@ class TrafficPlanner {
 
   struct Candidate {
     bool possible = false;
+    bool late = false;  // there is a way, but at the speeds that it allows the vehicle would be late for it
     double cost = 0.0;  // [s]
     Way way;
     SpeedPlan speeds;
@@ -86,6 +87,7 @@ class TrafficPlanner {
   Candidate go_, behind_;
   bool stays_behind_ = false;
   int open_cycles_ = 0;  // consecutive cycles in which it could have gone
+  int late_cycles_ = 0;  // consecutive cycles in which going was found to be late
   Manoeuvre manoeuvre_;
 };
 
