@@ -3,20 +3,35 @@
 #include <algorithm>
 
 namespace control {
+namespace {
+
+// Two objects on the right of a gap as one: its edge and margins are nowhere less than those of either.
+Covered Outermost(const Covered& a, const Covered& b) {
+  const double left = std::max(a.left, b.left);
+  const double least = std::max(a.left + a.margin.least, b.left + b.margin.least);
+  const double wanted_a = a.left + a.margin.wanted, wanted_b = b.left + b.margin.wanted;
+  return {.left = left,
+          .margin = {.least = least - left,
+                     .wanted = std::max(wanted_a, wanted_b) - left,
+                     .speed = wanted_b > wanted_a ? b.margin.speed : a.margin.speed}};
+}
+
+Covered Mirrored(const Covered& object) {
+  return {.right = -object.left, .left = -object.right, .margin = object.margin};
+}
+
+}  // namespace
 
 void Gaps::Find(const Covered& road, std::span<Covered> covered, double half_width) {
   count_ = 0;
   std::ranges::sort(covered, {}, [](const Covered& object) { return object.right - object.margin.wanted; });
-  double right = road.left;
-  Margin margin = road.margin;
-  for (const Covered& object : covered) {
-    Add(right, margin, object.right, object.margin, half_width);
-    if (object.left + object.margin.wanted > right + margin.wanted) {
-      right = object.left;
-      margin = object.margin;
-    }
+  Covered right = road;
+  for (std::size_t k = 0; k <= covered.size(); ++k) {
+    Covered left = Mirrored(road);
+    for (std::size_t l = covered.size(); l-- > k;) left = Outermost(left, Mirrored(covered[l]));
+    Add(right.left, right.margin, -left.left, left.margin, half_width);
+    if (k < covered.size()) right = Outermost(right, covered[k]);
   }
-  Add(right, margin, road.right, road.margin, half_width);
 }
 
 void Gaps::Add(double right, const Margin& margin_right, double left, const Margin& margin_left,

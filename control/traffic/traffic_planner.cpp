@@ -119,6 +119,11 @@ std::optional<std::size_t> TrafficPlanner::Blocker(const Candidate& candidate, c
     const RoadObject& object = objects_.objects()[k];
     const double near = object.s - object.half_length;
     if (near < vehicle.s - settings_.footprint.rear) continue;  // it comes from behind
+    // The vehicle is beside it already and cannot stay behind it.
+    if (near < vehicle.s + settings_.footprint.front && std::hypot(object.speed, object.drift) < kMoving &&
+        std::abs(object.lateral - vehicle.lateral) > object.half_width + settings_.footprint.half_width) {
+      continue;
+    }
     // Of a standing and an oncoming object that block the road together, the vehicle waits behind the standing one.
     const double from = object.speed < -kMoving && !object.crosses ? near + settings_.horizon * 100.0 : near;
     if (from < nearest) {
@@ -235,7 +240,7 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     behind_.way.reached = go_.way.reached;
     EvaluateBehind(vehicle, ahead, behind_);
     if (go_.possible && behind_.possible) {
-      stay = behind_.cost < go_.cost + (stays_behind_ ? kHysteresis : -kHysteresis);
+      stay = ahead && behind_.cost < go_.cost + (stays_behind_ ? kHysteresis : -kHysteresis);
     }
   }
   // A way that was free is not given up because of a single cycle.

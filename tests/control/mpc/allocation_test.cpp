@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "config/qp_file.hpp"
 #include "control/mpc/lpv_affine_mpc.hpp"
 #include "control/mpc/lpv_mpc.hpp"
+#include "control/traffic/traffic_planner.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/mpc/closed_loop.hpp"
 #include "tests/control/mpc/road_loop.hpp"
@@ -138,6 +140,26 @@ TEST(Allocations, StepWithTheAffineModelTakesNone) {
   loop.obstacles().clear();
   loop.mpc().Reset();
   step(SolverStatus::kSolved);
+}
+
+// Covers every decision, and more objects than can be considered.
+TEST(Allocations, TrafficPlannerTakesNone) {
+  const RoadProfile profile(testing::StraightRoad(500.0, 12.0), RoadBounds{.left = 4.0, .right = -4.0}, {});
+  TrafficPlanner planner({.footprint = {.front = 2.0, .rear = 2.3, .half_width = 0.9}, .path = {}}, profile);
+  const auto plan = [&](const std::vector<Obstacle>& obstacles, Decision expected) {
+    planner.Reset();
+    const std::size_t before = Taken();
+    const Decision decision = planner.Plan(obstacles, {.s = 50.0, .speed = 12.0}).decision;
+    EXPECT_EQ(Taken() - before, 0u);
+    EXPECT_EQ(decision, expected);
+  };
+  plan({}, Decision::kDrive);
+  plan({{.X = 90.0, .Y = -0.5}}, Decision::kPass);
+  plan({{.X = 75.0, .r_y = 3.0, .velocity_X = 5.0}}, Decision::kFollow);
+  plan({{.X = 90.0, .Y = -7.0, .r_y = 3.0, .velocity_Y = 2.0}}, Decision::kYield);
+  plan({{.X = 90.0, .r_y = 3.0}}, Decision::kWait);
+  plan({{.X = 60.0, .r_y = 3.0}}, Decision::kSqueeze);
+  plan(std::vector<Obstacle>(100, {.X = 90.0, .r_y = 3.0}), Decision::kWait);
 }
 
 }  // namespace
