@@ -33,7 +33,9 @@ double ProgressReference::Deceleration(double s, double upsilon, std::span<const
     const double closing = std::max(upsilon - stop.speed, 0.0);
     const double needed =
         closing * closing / (2.0 * std::max(stop.s + stop.spare - s, RoadProfile::kStopWithin));
-    hardest = std::max(hardest, std::min(needed, limits.emergency));
+    const double to_stop = upsilon * upsilon / (2.0 * std::max(stop.RoomToStop(s), RoadProfile::kStopWithin));
+    const double most = stop.spare > 0.0 ? std::max(needed, to_stop) : needed;
+    hardest = std::max(hardest, std::min(most, limits.emergency));
   }
   return hardest;
 }
