@@ -77,18 +77,28 @@ void TrafficPlanner::LimitSpeed(Candidate& candidate) const {
   }
 }
 
-// Whether the path touches an object at the times of the speed plan; if so, which.
+// Whether the path touches an object at the times of the speed plan; if so, which. What the vehicle touches already does not
+// count: it can only drive on.
 bool TrafficPlanner::Collides(const Candidate& candidate, std::size_t& object) {
   const auto& speeds = candidate.speeds;
+  const Footprint& footprint = settings_.footprint;
+  const auto touches = [&](const RoadObject& o, double s, double t) {
+    const double ahead = o.SAt(t) - s;
+    return ahead - o.half_length <= footprint.front && ahead + o.half_length >= -footprint.rear &&
+           std::abs(candidate.path.At(s).offset - o.LateralAt(t)) < o.half_width + footprint.half_width;
+  };
+  constexpr int kParts = 4;  // of the way between two stations
   for (std::size_t j = 1; j < std::min(speeds.count, candidate.way.reached); ++j) {
     for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), speeds, j, 0.0)) {
       const RoadObject& o = objects_.objects()[k];
-      const double right = std::min(o.LateralAt(speeds.t[j - 1]), o.LateralAt(speeds.t[j])) - o.half_width;
-      const double left = std::max(o.LateralAt(speeds.t[j - 1]), o.LateralAt(speeds.t[j])) + o.half_width;
-      const double d = candidate.path.offset[j], half_width = settings_.footprint.half_width;
-      if (d - half_width < left && d + half_width > right) {
-        object = k;
-        return true;
+      if (touches(o, stations_.s_0, 0.0)) continue;
+      for (int part = 1; part <= kParts; ++part) {
+        const double share = static_cast<double>(part) / kParts;
+        if (touches(o, stations_.At(j - 1) + share * stations_.spacing,
+                    std::lerp(speeds.t[j - 1], speeds.t[j], share))) {
+          object = k;
+          return true;
+        }
       }
     }
   }

@@ -1,9 +1,11 @@
 // A vehicle on a straight road and what its traffic planner decides, for tests.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "control/traffic/speed_plan.hpp"
 #include "control/traffic/traffic_planner.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/roads.hpp"
@@ -16,6 +18,7 @@ class PlannedTraffic : public ::testing::Test {
   static constexpr double kSpeed = 12.0;
   static constexpr double kHalfWidth = 0.9;
   static constexpr double kPlace = 50.0;
+  static constexpr double kStep = 0.1;  // of a drive [s]
   static constexpr TrafficSettings kSettings{
       .footprint = {.front = 2.0, .rear = 2.3, .half_width = kHalfWidth},
       .obstacle_margin = 0.3,
@@ -52,6 +55,15 @@ class PlannedTraffic : public ::testing::Test {
   }
   Decision Decide(const std::vector<Obstacle>& obstacles, double lateral = 0.0, double speed = kSpeed) {
     return PlanAnew(obstacles, lateral, speed).decision;
+  }
+  // Moves the vehicle by a step as planned: on its path, as fast as limits and stop lines allow.
+  static void Drive(const Manoeuvre& manoeuvre, RoadPosition& vehicle) {
+    const double wanted = std::min(
+        {kSpeed, manoeuvre.SpeedLimitAt(vehicle.s), SpeedBefore(manoeuvre.stops(), vehicle.s, 0.0, 2.0)});
+    vehicle.speed = std::clamp(wanted, vehicle.speed - 5.0 * kStep, vehicle.speed + 1.5 * kStep);
+    vehicle.s += vehicle.speed * kStep;
+    vehicle.lateral = manoeuvre.path.At(vehicle.s).offset;
+    vehicle.slope = manoeuvre.path.At(vehicle.s).slope;
   }
   // On which the first obstacle is passed.
   Side SideOf(const Obstacle& obstacle, double lateral = 0.0) {

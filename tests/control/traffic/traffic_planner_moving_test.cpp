@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-#include "control/traffic/speed_plan.hpp"
 #include "control/traffic/traffic_planner.hpp"
 #include "gtest/gtest.h"
 #include "tests/control/traffic/planned_traffic.hpp"
@@ -98,9 +97,7 @@ TEST_F(TwoLanes, SlowVehicleIsOvertakenUnlessSomebodyComesTowardsIt) {
   EXPECT_EQ(manoeuvre.object, 1);
 }
 
-// The vehicle does what is planned, on its path and as fast as limits and stop lines allow.
 TEST_F(TwoLanes, OvertakingWaitsUntilTheOncomingVehicleHasPassed) {
-  constexpr double kStep = 0.1;
   RoadPosition vehicle{.s = kPlace, .speed = kSpeed};
   std::vector<Obstacle> traffic{Car(25.0, 0.0, 5.0), Car(110.0, 3.5, -12.0)};
   traffic[0].id = 1;
@@ -112,12 +109,7 @@ TEST_F(TwoLanes, OvertakingWaitsUntilTheOncomingVehicleHasPassed) {
     const double oncoming = traffic[1].X - vehicle.s;
     if (oncoming > 4.0 && manoeuvre.decision == Decision::kFollow) followed = true;
     if (vehicle.s > traffic[0].X && oncoming > 0.0) passed_before_it = true;
-    const double wanted = std::min(
-        {kSpeed, manoeuvre.SpeedLimitAt(vehicle.s), SpeedBefore(manoeuvre.stops(), vehicle.s, 0.0, 2.0)});
-    vehicle.speed = std::clamp(wanted, vehicle.speed - 5.0 * kStep, vehicle.speed + 1.5 * kStep);
-    vehicle.s += vehicle.speed * kStep;
-    vehicle.lateral = manoeuvre.path.At(vehicle.s).offset;
-    vehicle.slope = manoeuvre.path.At(vehicle.s).slope;
+    Drive(manoeuvre, vehicle);
     for (Obstacle& car : traffic) {
       car.X += car.velocity_X * kStep;
       const double along = car.X - vehicle.s;

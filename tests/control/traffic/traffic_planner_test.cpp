@@ -1,14 +1,18 @@
 #include "control/traffic/traffic_planner.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "control/traffic/speed_plan.hpp"
 #include "gtest/gtest.h"
+#include "tests/control/random.hpp"
 #include "tests/control/traffic/planned_traffic.hpp"
 
 namespace control {
 namespace {
 
+using testing::Random;
 using TrafficPlannerTest = testing::PlannedTraffic;
 
 TEST_F(TrafficPlannerTest, OnAFreeRoadItDrivesAlongTheReferencePath) {
@@ -172,6 +176,65 @@ TEST_F(TrafficPlannerTest, ObstaclesBeyondTheMostAreCounted) {
   EXPECT_EQ(manoeuvre.objects.size(), RoadObjects::kMost);
   EXPECT_EQ(manoeuvre.left_out, 3u);
   EXPECT_EQ(Plan({}).left_out, 0u);
+}
+
+// What a corner may cut between the places at which the planner looks [m].
+constexpr double kBetween = 0.05;
+
+// For 4 s, which is twice what the controller looks ahead, or up to the first stop line.
+TEST_F(TrafficPlannerTest, AmongThingsThatStandItsPathTouchesNothing) {
+  constexpr double kTime = 4.0;
+  Random random(11);
+  int passed = 0, waited = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    std::vector<Obstacle> things(static_cast<std::size_t>(random.Integer(1, 5)));
+    for (Obstacle& thing : things) {
+      thing = At(random.Uniform(30.0, 60.0), random.Uniform(-4.0, 4.0), random.Uniform(0.3, 2.0));
+    }
+    const Manoeuvre& manoeuvre = PlanAnew(things);
+    ASSERT_NE(manoeuvre.decision, Decision::kSqueeze) << "there are 26 m to stop";
+    if (manoeuvre.decision == Decision::kPass) ++passed;
+    if (manoeuvre.decision == Decision::kWait) ++waited;
+    const SpeedPlan speeds = PlanSpeed(manoeuvre.path.stations, manoeuvre.speed_limit, manoeuvre.stops(),
+                                       kSpeed, profile_.limits(), kTime);
+    double end = manoeuvre.path.stations.At(speeds.count - 1);
+    for (const StopLine& stop : manoeuvre.stops()) end = std::min(end, stop.s);
+    for (double s = kPlace; s < end; s += 0.25) {
+      const double offset = manoeuvre.path.At(s).offset;
+      EXPECT_LE(std::abs(offset), 4.0 - kHalfWidth);
+      for (const Obstacle& thing : obstacles_) {
+        if (thing.X - thing.r_x > s + 2.0 || thing.X + thing.r_x < s - 2.3) continue;
+        EXPECT_GT(std::abs(offset - thing.Y), thing.r_y + kHalfWidth - kBetween)
+            << "trial " << trial << ", object " << thing.id << ", s = " << s;
+      }
+    }
+  }
+  EXPECT_GT(passed, 100);
+  EXPECT_GT(waited, 100);
+}
+
+TEST_F(TrafficPlannerTest, DriveAmongThingsThatStandTouchesNothing) {
+  Random random(12);
+  int arrived = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Obstacle> things(static_cast<std::size_t>(random.Integer(1, 5)));
+    for (std::size_t k = 0; k < things.size(); ++k) {
+      things[k] = At(random.Uniform(30.0, 60.0), random.Uniform(-4.0, 4.0), random.Uniform(0.3, 2.0));
+      things[k].id = static_cast<int>(k) + 1;
+    }
+    planner_.Reset();
+    RoadPosition vehicle{.s = kPlace, .speed = kSpeed};
+    for (double t = 0.0; t < 40.0 && vehicle.s < kPlace + 75.0; t += kStep) {
+      Drive(planner_.Plan(things, vehicle), vehicle);
+      for (const Obstacle& thing : things) {
+        if (std::abs(thing.X - vehicle.s) > thing.r_x + 2.0) continue;
+        ASSERT_GT(std::abs(vehicle.lateral - thing.Y), thing.r_y + kHalfWidth - kBetween)
+            << "trial " << trial << " at " << t;
+      }
+    }
+    if (vehicle.s >= kPlace + 75.0) ++arrived;
+  }
+  EXPECT_GT(arrived, 100) << "the others are blocked";
 }
 
 }  // namespace
