@@ -17,7 +17,8 @@ _lpvmpcd() {
     --config | --scenario) _filedir toml && return ;;
     --log | -o | --output) _filedir && return ;;
     --out | --record-qp | --scenarios) _filedir -d && return ;;
-    --horizon | --repeat | --jobs | --timeout | --count | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers
+    --json) [[ ${words[1]} == catalogue ]] && _filedir json && return ;; # elsewhere without a value
+    --horizon | --repeat | --jobs | --timeout | --count | --filter | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers, texts
   esac
 
   # The command so far: each word that names a subcommand of the one before it.

@@ -39,7 +39,7 @@ Completes 'a.toml drive' lpvmpcd --config ''
 Completes 'lpv lpv-affine lpv-standard' lpvmpcd --controller ''
 Completes '--scenario' lpvmpc-sim --interface vcan0 --s
 Completes 'a.toml drive' lpvmpc-sim --scenario ''
-Completes 'bench decode paper report run sweep' lpvmpc ''
+Completes 'bench catalogue decode paper report run sweep' lpvmpc ''
 Completes 'report run' lpvmpc r
 Completes 'qp step' lpvmpc bench ''
 Completes '--horizon' lpvmpc bench step --hor
@@ -53,6 +53,9 @@ Completes '' lpvmpc bench step --repeat ''
 Completes 'merge' lpvmpc sweep ''
 Completes 'a.log a.toml a.txt drive' lpvmpc sweep merge ''
 Completes '' lpvmpc sweep --shard ''
+Completes '--filter' lpvmpc catalogue --f
+Completes '' lpvmpc catalogue --filter ''
+Completes 'drive' lpvmpc catalogue --json ''
 
 for program in lpvmpcd lpvmpc-sim lpvmpc; do
   complete -p "$program" | grep -q -- '-F _lpvmpcd' || { echo "FAILED: no completion of $program" >&2; failures=1; }

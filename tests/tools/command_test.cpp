@@ -46,11 +46,20 @@ TEST(Lpvmpc, UnknownOptionIsNotHiddenByWhatElseIsMissing) {
 }
 
 TEST(Lpvmpc, WhatIsRequiredIsNamed) {
-  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep or report"));
+  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep, catalogue or report"));
   ExpectOneLine({LPVMPC, "bench"}, HasSubstr("bench step"));
   ExpectOneLine({LPVMPC, "run"}, HasSubstr("--scenario"));
   ExpectOneLine({LPVMPC, "report", "-o", "x.html"}, HasSubstr("RUN_DIR"));
   ExpectOneLine({LPVMPC, "report", "x"}, HasSubstr("--output"));
+}
+
+TEST(Lpvmpc, CatalogueIsFoundBesideTheProgram) {
+  const test_support::Outcome outcome =
+      test_support::Run({LPVMPC, "catalogue", "--filter", "stop-at-end", "--jobs", "1"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1 passed, 0 failed"));
+  ExpectOneLine({LPVMPC, "catalogue", "--filter", "no-such"}, HasSubstr("'no-such'"));
+  ExpectOneLine({LPVMPC, "catalogue", "--scenarios", "/nowhere"}, HasSubstr("/nowhere"));
 }
 
 TEST(Lpvmpc, FolderOfARunThatHoldsNoneIsNamed) {

@@ -1,0 +1,26 @@
+#include <iostream>
+#include <memory>
+
+#include "tools/catalogue/catalogue.hpp"
+#include "tools/commands/command.hpp"
+
+namespace tools {
+
+Command AddCatalogue(CLI::App& program) {
+  const auto options = std::make_shared<CatalogueOptions>();
+  options->jobs = Processors();
+  CLI::App* command = program.add_subcommand("catalogue", "drive the catalogue of scenarios");
+  command->add_option("--scenarios", options->folder,
+                      "folder with the catalogue, instead of the installed one");
+  command->add_option("--filter", options->filter, "drive only the scenarios whose name contains this text");
+  command->add_option("--jobs", options->jobs, "number of processes that drive")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--json", options->json, "write all figures as JSON to this file");
+  return {.app = command, .run = [options] {
+            if (options->folder.empty()) options->folder = Scenarios("catalogue");
+            return Catalogue(*options, std::cout);
+          }};
+}
+
+}  // namespace tools
