@@ -12,7 +12,7 @@ namespace control {
 struct Margin {
   double least = 0.0;   // [m]
   double wanted = 0.0;  // ≥ least [m]
-  double speed = 60.0;  // [m/s]
+  double speed = 45.0;  // [m/s]
 };
 
 // The margin to an object for a vehicle that passes at `speed` [m/s]. `usual`: margin to things that do not move [m].

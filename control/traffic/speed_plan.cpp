@@ -20,7 +20,7 @@ double SpeedBefore(std::span<const StopLine> stops, double s, double t, double d
   for (const StopLine& stop : stops) {
     const double distance = stop.s + stop.speed * t - s;
     const double over = distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, deceleration);
-    const double in_time = stop.speed > 0.0
+    const double in_time = stop.spare > 0.0
                                ? StoppingSpeed(stop.RoomToStop(s) + stop.speed * t, kHard * deceleration)
                                : std::numeric_limits<double>::infinity();
     speed = std::min({speed, std::max(stop.speed + over, 0.0), in_time});

@@ -206,7 +206,8 @@ void TrafficPlanner::Evaluate(const RoadPosition& vehicle, bool squeeze, Candida
   std::size_t touched = 0;
   if (Collides(candidate, touched)) {
     candidate.blocker = touched;
-    candidate.late = true;
+    const RoadObject& object = objects[*candidate.blocker];
+    candidate.late = std::hypot(object.speed, object.drift) > kMoving;
     return;
   }
   candidate.possible = true;

@@ -213,29 +213,5 @@ TEST_F(TrafficPlannerTest, AmongThingsThatStandItsPathTouchesNothing) {
   EXPECT_GT(waited, 100);
 }
 
-TEST_F(TrafficPlannerTest, DriveAmongThingsThatStandTouchesNothing) {
-  Random random(12);
-  int arrived = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Obstacle> things(static_cast<std::size_t>(random.Integer(1, 5)));
-    for (std::size_t k = 0; k < things.size(); ++k) {
-      things[k] = At(random.Uniform(30.0, 60.0), random.Uniform(-4.0, 4.0), random.Uniform(0.3, 2.0));
-      things[k].id = static_cast<int>(k) + 1;
-    }
-    planner_.Reset();
-    RoadPosition vehicle{.s = kPlace, .speed = kSpeed};
-    for (double t = 0.0; t < 40.0 && vehicle.s < kPlace + 75.0; t += kStep) {
-      Drive(planner_.Plan(things, vehicle), vehicle);
-      for (const Obstacle& thing : things) {
-        if (std::abs(thing.X - vehicle.s) > thing.r_x + 2.0) continue;
-        ASSERT_GT(std::abs(vehicle.lateral - thing.Y), thing.r_y + kHalfWidth - kBetween)
-            << "trial " << trial << " at " << t;
-      }
-    }
-    if (vehicle.s >= kPlace + 75.0) ++arrived;
-  }
-  EXPECT_GT(arrived, 100) << "the others are blocked";
-}
-
 }  // namespace
 }  // namespace control
