@@ -122,8 +122,8 @@ void Corridor::Reach(std::size_t j, const Stations& stations, const RoadPosition
       if (cost < static_cast<double>(cell.cost)) {
         cell = {.cost = static_cast<float>(cost),
                 .lateral = static_cast<float>(lateral),
-                .from = static_cast<signed char>(from),
-                .gap = static_cast<signed char>(gap)};
+                .from = static_cast<short>(from),
+                .gap = static_cast<short>(gap)};
       }
     }
   }

@@ -60,8 +60,8 @@ class Corridor {
   struct Cell {
     float cost = 0.0F;     // of the best way to here [s]; infinite: none
     float lateral = 0.0F;  // [m]
-    signed char from = 0;  // cell at the station before
-    signed char gap = -1;  // none: blocked
+    short from = 0;        // cell at the station before
+    short gap = -1;        // none: blocked
   };
 
   [[nodiscard]] RoadBounds NarrowestAt(double s, double spacing) const;
