@@ -37,7 +37,6 @@ void Derive(Config& config) {
   config.service.timeout = base::FromSeconds(config.timeout.value_or(1.5 * t_s));
   config.loop.modes.degraded_cycles = static_cast<int>(std::lround(config.degraded_time / t_s));
   config.loop.vehicle = config.vehicle;
-  config.loop.mu = config.affine.mu;
   config.mpc.t_s = config.affine.t_s = t_s;
 
   const safety::CommandLimits& limits = config.loop.limits;

@@ -17,7 +17,6 @@ constexpr double kChange = 0.7;        // cost of passing an object on another s
 constexpr double kUnfinished =
     3.0;  // cost of being beside an object at the end, per metre off the centre [s/m]
 constexpr double kBeyondGrip = 6.0;    // cost of a lateral move per second and multiple of the grip beyond it
-constexpr double kAlong = 0.5;         // speed along the road from which an object is overtaken [m/s]
 constexpr double kSpeedAtEdge = 40.0;  // speed at which the usual margin to the road's edges is wanted [m/s]
 constexpr double kOtherSide = 1e3;     // where an object that must be passed on one side seems to end [m]
 
@@ -31,11 +30,7 @@ std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::spa
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const RoadObject& object = objects[k];
     const double ahead_0 = object.SAt(t_0) - s_0, ahead_1 = object.SAt(t_1) - s_1;
-    if (std::min(ahead_0, ahead_1) - object.half_length > settings_.footprint.front ||
-        std::max(ahead_0, ahead_1) + object.half_length < -settings_.footprint.rear) {
-      continue;
-    }
-    beside_[count++] = k;
+    if (object.IsBeside(settings_.footprint, ahead_0, ahead_1)) beside_[count++] = k;
   }
   return {beside_.data(), count};
 }
@@ -166,9 +161,8 @@ void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
   double best = std::numeric_limits<double>::infinity();
   int l = 0;
   const auto at_end = Beside(stations, objects, speeds, reached - 1, 0.0);
-  const bool unfinished = std::ranges::any_of(at_end, [&](std::size_t k) {
-    return !objects[k].crosses && objects[k].speed > kAlong && kept[k] == Side::kNone;
-  });
+  const bool unfinished = std::ranges::any_of(
+      at_end, [&](std::size_t k) { return objects[k].MovesAhead() && kept[k] == Side::kNone; });
   for (int c = 0; c < kCells; ++c) {
     const Cell& cell = cells_[reached - 1][static_cast<std::size_t>(c)];
     const double cost = static_cast<double>(cell.cost) +

@@ -41,9 +41,8 @@ void Gaps::Add(double right, const Margin& margin_right, double left, const Marg
   if (room < least || count_ == kMost) return;
   const double wanted = margin_right.wanted + margin_left.wanted;
   const double r = room < wanted ? (room - least) / (wanted - least) : 1.0;
-  const auto shrunk = [r](const Margin& m) { return m.least + r * (m.wanted - m.least); };
-  gaps_[count_++] = {.lo = right + half_width + shrunk(margin_right),
-                     .hi = left - half_width - shrunk(margin_left),
+  gaps_[count_++] = {.lo = right + half_width + margin_right.At(r),
+                     .hi = left - half_width - margin_left.At(r),
                      .share = r,
                      .speed = SpeedInGap(r, std::min(margin_right.speed, margin_left.speed))};
 }

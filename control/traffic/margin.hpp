@@ -13,6 +13,9 @@ struct Margin {
   double least = 0.0;   // [m]
   double wanted = 0.0;  // ≥ least [m]
   double speed = 45.0;  // [m/s]
+
+  // The distance at r of the way from least to wanted, 0 ≤ r ≤ 1.
+  [[nodiscard]] double At(double r) const { return least + r * (wanted - least); }
 };
 
 // The margin to an object for a vehicle that passes at `speed` [m/s]. `usual`: margin to things that do not move [m].

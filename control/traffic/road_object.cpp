@@ -9,7 +9,7 @@
 namespace control {
 namespace {
 
-constexpr double kMoving = 0.3;  // [m/s]
+constexpr double kStands = 0.3;  // speed below which no direction of motion is known [m/s]
 constexpr double kCrossingSlope =
     0.5;  // lateral velocity per speed along the road from which an object crosses it
 
@@ -28,7 +28,7 @@ RoadObject PlaceOnRoad(const Obstacle& obstacle, std::size_t index, const RoadPr
           .drift = drift,
           .half_length = SupportOf(obstacle, along),
           .half_width = SupportOf(obstacle, left),
-          .crosses = velocity.norm() < kMoving || std::abs(drift) > kCrossingSlope * std::abs(speed),
+          .crosses = velocity.norm() < kStands || std::abs(drift) > kCrossingSlope * std::abs(speed),
           .side = obstacle.side,
           .object_class = obstacle.object_class};
 }

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "control/road/road_profile.hpp"
+#include "control/vehicle/footprint.hpp"
 #include "control/vehicle/types.hpp"
 
 namespace control {
@@ -13,6 +15,7 @@ namespace control {
 struct RoadObject {
   // Time for which an object that moves along the road is assumed to keep its lateral velocity [s].
   static constexpr double kDrift = 2.0;
+  static constexpr double kMoving = 0.5;  // speed from which an object is taken to move [m/s]
 
   std::size_t index = 0;     // in the list of obstacles
   double s = 0.0;            // arc length of the centre [m]
@@ -28,6 +31,19 @@ struct RoadObject {
   [[nodiscard]] double SAt(double t) const { return s + speed * t; }
   [[nodiscard]] double LateralAt(double t) const {
     return lateral + drift * (crosses ? t : std::min(t, kDrift));
+  }
+  [[nodiscard]] bool Moves() const { return std::hypot(speed, drift) > kMoving; }
+  [[nodiscard]] bool MovesAhead() const { return !crosses && speed > kMoving; }
+  [[nodiscard]] bool ComesTowards() const { return !crosses && speed < -kMoving; }
+
+  // True if a vehicle is beside the object, before which it is by `ahead` [m] from centre to centre; or, while that
+  // distance changes from `ahead` to `then`, at some time.
+  [[nodiscard]] bool IsBeside(const Footprint& vehicle, double ahead) const {
+    return IsBeside(vehicle, ahead, ahead);
+  }
+  [[nodiscard]] bool IsBeside(const Footprint& vehicle, double ahead, double then) const {
+    return std::min(ahead, then) - half_length <= vehicle.front &&
+           std::max(ahead, then) + half_length >= -vehicle.rear;
   }
 };
 

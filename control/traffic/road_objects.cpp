@@ -71,7 +71,7 @@ void RoadObjects::Add(const RoadObject& object, const RoadPosition& vehicle, dou
 }
 
 bool RoadObjects::Matters(const RoadObject& object, const RoadPosition& vehicle, double distance) const {
-  const RoadBounds& road = profile_->RoadAt(object.s);
+  const RoadBounds road = profile_->RoadAt(object.s);
   const double last = object.LateralAt(time_);
   const double rightmost = std::min(object.lateral, last) - object.half_width;
   const double leftmost = std::max(object.lateral, last) + object.half_width;

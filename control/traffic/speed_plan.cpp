@@ -28,13 +28,17 @@ double SpeedBefore(std::span<const StopLine> stops, double s, double t, double d
   return speed;
 }
 
+void LimitInTime(StationValues& limit, double spacing, double deceleration) {
+  for (std::size_t j = kStations - 1; j-- > 0;) {
+    limit[j] = std::min(limit[j], std::sqrt(limit[j + 1] * limit[j + 1] + 2.0 * deceleration * spacing));
+  }
+}
+
 SpeedPlan PlanSpeed(const Stations& stations, const StationValues& allowed, std::span<const StopLine> stops,
                     double speed, const SpeedLimits& limits, double time) {
   const double ds = stations.spacing;
   StationValues limit = allowed;
-  for (std::size_t j = kStations - 1; j-- > 0;) {
-    limit[j] = std::min(limit[j], std::sqrt(limit[j + 1] * limit[j + 1] + 2.0 * limits.deceleration * ds));
-  }
+  LimitInTime(limit, ds, limits.deceleration);
   SpeedPlan plan;
   plan.v[0] = std::max(speed, 0.0);
   plan.count = 1;

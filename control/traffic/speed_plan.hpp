@@ -21,6 +21,9 @@ struct SpeedPlan {
 // The highest speed at arc length s and time t [s] before the stop lines; beyond a line, the vehicle falls back. [m/s]
 [[nodiscard]] double SpeedBefore(std::span<const StopLine> stops, double s, double t, double deceleration);
 
+// Lowers the limits so that braking at `deceleration` [m/s²] meets each of them in time. [m/s]
+void LimitInTime(StationValues& limit, double spacing, double deceleration);
+
 // `allowed`: speed limit at each station [m/s]. `speed`: present speed [m/s]. Stations later than `time` [s] are not
 // reached.
 [[nodiscard]] SpeedPlan PlanSpeed(const Stations& stations, const StationValues& allowed,

@@ -14,25 +14,13 @@
 #include <span>
 
 #include "control/road/road_profile.hpp"
-#include "control/traffic/corridor.hpp"
 #include "control/traffic/manoeuvre.hpp"
-#include "control/traffic/path_smoother.hpp"
+#include "control/traffic/manoeuvre_search.hpp"
 #include "control/traffic/road_objects.hpp"
-#include "control/traffic/speed_plan.hpp"
-#include "control/vehicle/footprint.hpp"
+#include "control/traffic/traffic_settings.hpp"
+#include "control/vehicle/types.hpp"
 
 namespace control {
-
-struct TrafficSettings {
-  Footprint footprint;
-  double obstacle_margin = 0.3;  // [m]
-  double road_margin = 0.4;      // [m]
-  double stop_gap = 2.0;         // gap to an object that blocks the way [m]
-  double headway = 1.0;          // additional gap to an object that moves ahead, in time [s]
-  double grip = 5.0;             // acceleration that the tyres can provide [m/s²]
-  double horizon = 8.0;          // [s]
-  PathSmootherSettings path;
-};
 
 class TrafficPlanner {
  public:
@@ -48,40 +36,13 @@ class TrafficPlanner {
  private:
   static constexpr std::size_t kIds = 256;
 
-  struct Candidate {
-    bool possible = false;
-    bool late = false;  // there is a way, but at the speeds that it allows the vehicle would be late for it
-    double cost = 0.0;  // [s]
-    Way way;
-    SpeedPlan speeds;
-    LateralPath path;
-    StationValues speed_limit{};
-    std::array<StopLine, Manoeuvre::kMostStops> stop_lines{};
-    std::array<std::size_t, Manoeuvre::kMostStops> stop_objects{};
-    std::size_t stop_count = 0;
-    std::optional<std::size_t> blocker;  // the object that blocks the way
-  };
-
-  void Measure(const RoadPosition& vehicle);
-  void Evaluate(const RoadPosition& vehicle, bool squeeze, Candidate& candidate);
-  void EvaluateBehind(const RoadPosition& vehicle, std::optional<std::size_t> object, Candidate& candidate);
-  void AddStop(std::optional<std::size_t> object, const RoadPosition& vehicle, Candidate& candidate) const;
-  [[nodiscard]] std::optional<std::size_t> Blocker(const Candidate& candidate, const RoadPosition& vehicle);
-  [[nodiscard]] bool Collides(const Candidate& candidate, std::size_t& object);
-  void LimitSpeed(Candidate& candidate) const;
-  [[nodiscard]] double Cost(const Candidate& candidate) const;
-  [[nodiscard]] bool CanStop(const Candidate& candidate, const RoadPosition& vehicle) const;
+  [[nodiscard]] Side& Kept(const Obstacle& obstacle);
   [[nodiscard]] LateralPoint Start(const RoadPosition& vehicle) const;
   void Take(const Candidate& candidate, Decision decision, std::optional<std::size_t> object,
             std::span<const Obstacle> obstacles);
 
   TrafficSettings settings_;
-  const RoadProfile* profile_;
-  RoadObjects objects_;
-  Corridor corridor_;
-  PathSmoother smoother_;
-  Stations stations_;
-  StationValues road_speed_{}, curvature_{};
+  ManoeuvreSearch search_;
   std::array<Side, kIds> kept_by_id_{};
   std::array<Side, RoadObjects::kMost> kept_{};
   Candidate go_, behind_;

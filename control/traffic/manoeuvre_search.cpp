@@ -1,0 +1,214 @@
+#include "control/traffic/manoeuvre_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace control {
+namespace {
+
+constexpr double kShortest = 40.0;    // least length of road that is planned for [m]
+constexpr double kSameTimes = 0.3;    // difference of arrival times that does not matter [s]
+constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
+
+}  // namespace
+
+ManoeuvreSearch::ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile)
+    : settings_(settings),
+      profile_(&profile),
+      objects_(settings.footprint, settings.horizon, profile),
+      corridor_({.footprint = settings.footprint,
+                 .obstacle_margin = settings.obstacle_margin,
+                 .road_margin = settings.road_margin,
+                 .grip = settings.grip},
+                profile),
+      smoother_(settings.path) {}
+
+void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle,
+                            const LateralPoint& start) {
+  vehicle_ = vehicle;
+  start_ = start;
+  Measure();
+  objects_.Select(obstacles, vehicle, stations_.length());
+}
+
+// Places the stations and reads the road's values there.
+void ManoeuvreSearch::Measure() {
+  const double accelerated = vehicle_.speed + 0.5 * profile_->limits().acceleration * settings_.horizon;
+  const double fastest = std::max(std::min(accelerated, profile_->At(vehicle_.s).speed), vehicle_.speed);
+  stations_ = {
+      .s_0 = vehicle_.s,
+      .spacing = std::max(fastest * settings_.horizon, kShortest) / static_cast<double>(kStations - 1)};
+  for (std::size_t j = 0; j < kStations; ++j) {
+    const RoutePoint point = profile_->At(stations_.At(j));
+    road_speed_[j] = point.speed;
+    curvature_[j] = point.curvature;
+  }
+}
+
+void ManoeuvreSearch::Go(std::span<const Side> kept, bool squeeze, Candidate& candidate) {
+  candidate.stop_count = 0;
+  Evaluate(kept, squeeze, candidate);
+}
+
+void ManoeuvreSearch::StayBehind(std::optional<std::size_t> object, std::span<const Side> kept,
+                                 Candidate& candidate) {
+  candidate.stop_count = 0;
+  while (candidate.stop_count < Manoeuvre::kMostStops) {
+    AddStop(object, candidate);
+    Evaluate(kept, false, candidate);
+    if (candidate.possible || !candidate.blocker) return;
+    object = candidate.blocker;
+    const auto known = std::span(candidate.stop_objects).first(candidate.stop_count);
+    if (std::ranges::find(known, *object) != known.end()) return;
+  }
+}
+
+bool ManoeuvreSearch::CanStop(const Candidate& candidate) const {
+  for (std::size_t k = 0; k < candidate.stop_count; ++k) {
+    const StopLine& line = candidate.stop_lines[k];
+    const double closing = std::max(vehicle_.speed - line.speed, 0.0);
+    const double room = line.s + line.spare + 0.8 * settings_.stop_gap - vehicle_.s;
+    if (closing * closing > 1.8 * settings_.grip * std::max(room, 0.1)) return false;
+  }
+  return true;
+}
+
+double ManoeuvreSearch::FreeTime() const {
+  return stations_.length() / std::max(road_speed_[0], 1.0);
+}
+
+void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate) {
+  const auto objects = objects_.objects();
+  const std::span stops(candidate.stop_lines.data(), candidate.stop_count);
+  candidate.possible = candidate.late = false;
+  candidate.blocker.reset();
+  candidate.speeds =
+      PlanSpeed(stations_, road_speed_, stops, vehicle_.speed, profile_->limits(), settings_.horizon);
+  for (int round = 0; round < 2; ++round) {
+    corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, settings_.horizon, squeeze,
+                   candidate.way);
+    const bool blocked = candidate.way.reached < candidate.speeds.count;
+    if (blocked) candidate.blocker = Blocker(candidate);
+    if (!smoother_.Smooth(stations_, start_, candidate.way, candidate.speeds, curvature_, candidate.path)) {
+      return;
+    }
+    LimitSpeed(candidate);
+    if (blocked) return;
+    const SpeedPlan before = candidate.speeds;
+    candidate.speeds = PlanSpeed(stations_, candidate.speed_limit, stops, vehicle_.speed, profile_->limits(),
+                                 settings_.horizon);
+    double later = 0.0;
+    for (std::size_t j = 0; j < std::min(before.count, candidate.speeds.count); ++j) {
+      later = std::max(later, std::abs(candidate.speeds.t[j] - before.t[j]));
+    }
+    if (later < kSameTimes) break;
+  }
+  candidate.blocker = Touched(candidate);
+  if (candidate.blocker) {
+    candidate.late = objects[*candidate.blocker].Moves();
+    return;
+  }
+  candidate.possible = true;
+  candidate.cost = Cost(candidate);
+}
+
+void ManoeuvreSearch::LimitSpeed(Candidate& candidate) const {
+  const double grip = kShareOfGrip * settings_.grip;
+  for (std::size_t j = 0; j < kStations; ++j) {
+    double limit = road_speed_[j];
+    const double stretch = std::max(1.0 - curvature_[j] * candidate.path.offset[j], 0.2);
+    const double curvature = std::abs(curvature_[j] / stretch + candidate.path.bend[j]);
+    if (curvature > std::abs(curvature_[j]))
+      limit = std::min(limit, std::sqrt(grip / std::max(curvature, 1e-6)));
+    if (j > 0 && j < candidate.way.reached) limit = std::min(limit, candidate.way.gap[j].speed);
+    candidate.speed_limit[j] = limit;
+  }
+  LimitInTime(candidate.speed_limit, stations_.spacing, profile_->limits().deceleration);
+}
+
+// What the vehicle touches already does not count: it can only drive on.
+std::optional<std::size_t> ManoeuvreSearch::Touched(const Candidate& candidate) {
+  const auto& speeds = candidate.speeds;
+  const Footprint& footprint = settings_.footprint;
+  const auto touches = [&](const RoadObject& o, double s, double t) {
+    return o.IsBeside(footprint, o.SAt(t) - s) &&
+           std::abs(candidate.path.At(s).offset - o.LateralAt(t)) < o.half_width + footprint.half_width;
+  };
+  constexpr int kParts = 4;  // of the way between two stations
+  for (std::size_t j = 1; j < std::min(speeds.count, candidate.way.reached); ++j) {
+    for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), speeds, j, 0.0)) {
+      const RoadObject& o = objects_.objects()[k];
+      if (touches(o, stations_.s_0, 0.0)) continue;
+      for (int part = 1; part <= kParts; ++part) {
+        const double share = static_cast<double>(part) / kParts;
+        if (touches(o, stations_.At(j - 1) + share * stations_.spacing,
+                    std::lerp(speeds.t[j - 1], speeds.t[j], share))) {
+          return k;
+        }
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// In seconds: the time to the last station, lateral offsets and accelerations, and changed sides.
+double ManoeuvreSearch::Cost(const Candidate& candidate) const {
+  constexpr double kOffset = 0.02, kAcceleration = 0.05;  // per second and m², (m/s²)²
+  const SpeedPlan& speeds = candidate.speeds;
+  double cost = candidate.way.changes;
+  for (std::size_t j = 1; j < speeds.count; ++j) {
+    const double dt = speeds.t[j] - speeds.t[j - 1];
+    const double d = candidate.path.offset[j], a = speeds.v[j] * speeds.v[j] * candidate.path.bend[j];
+    cost += dt * (kOffset * d * d + kAcceleration * a * a);
+  }
+  const std::size_t last = speeds.count - 1;
+  const double left = stations_.length() - static_cast<double>(last) * stations_.spacing;
+  const double usual = std::max(road_speed_[last], 1.0);
+  return cost + (last + 1 == kStations ? speeds.t[last] : settings_.horizon + left / usual);
+}
+
+std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) {
+  const std::size_t j = candidate.way.reached;
+  std::optional<std::size_t> blocker;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), candidate.speeds, j, 0.0)) {
+    const RoadObject& object = objects_.objects()[k];
+    const double near = object.s - object.half_length;
+    if (near < vehicle_.s - settings_.footprint.rear) continue;  // it comes from behind
+    // The vehicle is beside it already and cannot stay behind it.
+    if (near < vehicle_.s + settings_.footprint.front && !object.Moves() &&
+        std::abs(object.lateral - vehicle_.lateral) > object.half_width + settings_.footprint.half_width) {
+      continue;
+    }
+    // Of a standing and an oncoming object that block the road together, the vehicle waits behind the standing one.
+    const double from = object.ComesTowards() ? near + settings_.horizon * 100.0 : near;
+    if (from < nearest) {
+      nearest = from;
+      blocker = k;
+    }
+  }
+  return blocker;
+}
+
+void ManoeuvreSearch::AddStop(std::optional<std::size_t> object, Candidate& candidate) const {
+  StopLine line{.s = stations_.At(candidate.way.reached) - stations_.spacing - settings_.footprint.front};
+  if (object) {
+    const RoadObject& o = objects_.objects()[*object];
+    const double front = o.s - o.half_length - settings_.footprint.front - settings_.stop_gap;
+    if (o.MovesAhead()) {
+      line = {
+          .s = front - settings_.headway * o.speed, .speed = o.speed, .spare = settings_.headway * o.speed};
+    } else if (o.ComesTowards()) {
+      line = {.s = std::min(front, vehicle_.s + 0.5 * vehicle_.speed * vehicle_.speed /
+                                                    profile_->limits().deceleration)};
+    } else {
+      line = {.s = front};
+    }
+  }
+  candidate.stop_lines[candidate.stop_count] = line;
+  candidate.stop_objects[candidate.stop_count] = object.value_or(RoadObjects::kMost);
+  ++candidate.stop_count;
+}
+
+}  // namespace control

@@ -1,0 +1,80 @@
+// Searches for manoeuvres from a place of the vehicle among the objects that matter there: one that goes, past the objects,
+// or one that stays behind them (traffic_planner.hpp). Each is a way (corridor.hpp), its path and its speeds, which are made
+// for one another: the way is where the objects are when the vehicle gets there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "control/road/road_profile.hpp"
+#include "control/traffic/corridor.hpp"
+#include "control/traffic/lateral_path.hpp"
+#include "control/traffic/manoeuvre.hpp"
+#include "control/traffic/path_smoother.hpp"
+#include "control/traffic/road_objects.hpp"
+#include "control/traffic/speed_plan.hpp"
+#include "control/traffic/traffic_settings.hpp"
+
+namespace control {
+
+// A manoeuvre that may be taken.
+struct Candidate {
+  bool possible = false;
+  bool late = false;  // there is a way, but at the speeds that it allows the vehicle would be late for it
+  double cost = 0.0;  // [s]
+  Way way;
+  SpeedPlan speeds;
+  LateralPath path;
+  StationValues speed_limit{};  // [m/s]
+  std::array<StopLine, Manoeuvre::kMostStops> stop_lines{};
+  std::array<std::size_t, Manoeuvre::kMostStops> stop_objects{};
+  std::size_t stop_count = 0;
+  std::optional<std::size_t> blocker;  // the object that blocks the way
+};
+
+class ManoeuvreSearch {
+ public:
+  // `profile` must outlive this object.
+  ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile);
+
+  // Sets the place of the vehicle and selects the objects; must precede the searches. `start`: where paths begin. None of
+  // the functions allocates.
+  void Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle, const LateralPoint& start);
+
+  // Searches past the objects. `kept`: the previous side of each object. `squeeze`: with the least margins.
+  void Go(std::span<const Side> kept, bool squeeze, Candidate& candidate);
+  // Searches behind `object`, or without one behind the station at which `candidate.way` ends, and behind what else turns
+  // out to block the way.
+  void StayBehind(std::optional<std::size_t> object, std::span<const Side> kept, Candidate& candidate);
+  // True if the tyres suffice to stop before the candidate's stop lines.
+  [[nodiscard]] bool CanStop(const Candidate& candidate) const;
+
+  [[nodiscard]] const Stations& stations() const { return stations_; }
+  [[nodiscard]] const RoadObjects& objects() const { return objects_; }
+  // Time to the last station at the road's speed [s].
+  [[nodiscard]] double FreeTime() const;
+
+ private:
+  void Measure();
+  void Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate);
+  void AddStop(std::optional<std::size_t> object, Candidate& candidate) const;
+  [[nodiscard]] std::optional<std::size_t> Blocker(const Candidate& candidate);
+  // The object that the path touches at the times of the speed plan, if there is one.
+  [[nodiscard]] std::optional<std::size_t> Touched(const Candidate& candidate);
+  void LimitSpeed(Candidate& candidate) const;
+  [[nodiscard]] double Cost(const Candidate& candidate) const;
+
+  TrafficSettings settings_;
+  const RoadProfile* profile_;
+  RoadObjects objects_;
+  Corridor corridor_;
+  PathSmoother smoother_;
+  RoadPosition vehicle_;
+  LateralPoint start_;
+  Stations stations_;
+  StationValues road_speed_{}, curvature_{};
+};
+
+}  // namespace control
