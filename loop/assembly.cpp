@@ -64,7 +64,7 @@ Assembly::Assembly(const Config& config, const config::RouteFile& route,
               .t_s = config.affine.t_s},
              profile_),
       // The paper's controllers plan for a point mass with a coarser model: their plans would not pass the check.
-      loop_(LoopOf(config), bus_, *controller_, reference_, profile_.edges(), std::move(stopwatch),
+      loop_(LoopOf(config), bus_, *controller_, reference_, profile_, std::move(stopwatch),
             IsPapers(config.controller) ? nullptr : &check_) {
   if (reference_.size() <= HorizonOf(config)) {
     throw std::runtime_error(config.route.string() + ": the route is shorter than the horizon");

@@ -30,7 +30,7 @@ PlanRequest RequestOf(const safety::ModeState& mode, const safety::ModeInputs& i
 
 ControlLoop::ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bus,
                          control::Controller& controller, const control::TimeReference& reference,
-                         const control::RoadEdges& edges, std::function<base::Time()> stopwatch,
+                         const control::RoadProfile& profile, std::function<base::Time()> stopwatch,
                          control::PlanCheck* check)
     : settings_(WithinHorizon(settings, controller.horizon())),
       inbox_(bus, settings.monitor, settings.period),
@@ -38,7 +38,7 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bu
                 .t_s = base::ToSeconds(settings.period),
                 .max_heading_error = settings.engage_max_heading_error,
                 .standstill_speed = settings.standstill_speed},
-               reference, edges),
+               reference, profile),
       planner_({.period = settings.period,
                 .deadline = settings.deadline,
                 .command_delay = settings.command_delay,

@@ -25,7 +25,7 @@
 #include "can/frame.hpp"
 #include "control/mpc/controller.hpp"
 #include "control/mpc/plan_check.hpp"
-#include "control/road/road_edges.hpp"
+#include "control/road/road_profile.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
 #include "loop/command_source.hpp"
@@ -59,10 +59,10 @@ struct LoopSettings {
 
 class ControlLoop {
  public:
-  // `stopwatch` returns the time since an arbitrary start, for durations only. `bus`, `controller`, `reference` and
-  // `check` must outlive the loop. Without a check (null) a plan is followed if its values are finite.
+  // `stopwatch` returns the time since an arbitrary start, for durations only. `bus`, `controller`, `reference`,
+  // `profile` and `check` must outlive the loop. Without a check (null) a plan is followed if its values are finite.
   ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bus, control::Controller& controller,
-              const control::TimeReference& reference, const control::RoadEdges& edges,
+              const control::TimeReference& reference, const control::RoadProfile& profile,
               std::function<base::Time()> stopwatch, control::PlanCheck* check = nullptr);
 
   // Processes a frame. True: a state set is complete and a cycle is due.

@@ -14,6 +14,7 @@ bus::FaultCode FaultCodeOf(const CycleResult& result, bus::FaultCode last_refusa
   const auto cause = stopped ? result.mode.cause : safety::PresentFault(result.inputs);
   if (cause) return *cause == safety::Cause::kSolverFailed ? last_refusal : safety::FaultOf(*cause);
   if (mode != bus::Mode::kStandby) return bus::FaultCode::kNone;
+  if (result.mode.cause == safety::Cause::kRouteEnd) return bus::FaultCode::kRouteEnd;
   if (!result.inputs.near_route) return bus::FaultCode::kOffRoute;
   return result.inputs.route_left <= 0 ? bus::FaultCode::kRouteEnd : bus::FaultCode::kNone;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "control/road/odometer.hpp"
-#include "control/road/road_edges.hpp"
+#include "control/road/road_profile.hpp"
 #include "control/road/route_place.hpp"
 #include "control/road/time_reference.hpp"
 #include "control/vehicle/types.hpp"
@@ -22,9 +22,9 @@ struct RouteTrackerSettings {
 
 class RouteTracker {
  public:
-  // `reference` must outlive the tracker.
+  // `reference` and `profile`, both of the same route, must outlive the tracker.
   RouteTracker(const RouteTrackerSettings& settings, const control::TimeReference& reference,
-               const control::RoadEdges& edges);
+               const control::RoadProfile& profile);
 
   // Must be called once per cycle. `commanding`: commands are enabled; the vehicle then counts as on the route, beside
   // the sample of the previous cycle. `applied`: the last command.
@@ -37,11 +37,13 @@ class RouteTracker {
   void Reconfigure(double max_heading_error, double standstill_speed);
 
  private:
-  [[nodiscard]] bool Arrived(const Snapshot& known) const;
+  // True if the vehicle stands at the route's end. This is asked of its progress, not of its distance from the last point,
+  // which a circuit or a crossing passes several times.
+  [[nodiscard]] bool Arrived(const Snapshot& known, double s) const;
 
   RouteTrackerSettings settings_;
   const control::TimeReference* reference_;
-  control::RoadEdges edges_;
+  const control::RoadProfile* profile_;
   control::Odometer odometer_;
   std::int64_t start_step_ = 0;  // sample k of the reference is due at step start_step_ + k
 };

@@ -67,6 +67,8 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSetti
         enter(bus::Mode::kStandby, Cause::kReleased);
       } else if (inputs.silent) {
         enter(bus::Mode::kFault, SilenceCause(inputs));
+      } else if (inputs.route_left <= 0 && inputs.standstill) {
+        enter(bus::Mode::kStandby, Cause::kRouteEnd);
       } else if (const auto hard = HardFault(inputs)) {
         enter(bus::Mode::kSafeStop, *hard);
       } else if (const auto soft = PresentFault(inputs)) {

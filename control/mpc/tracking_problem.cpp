@@ -68,14 +68,15 @@ void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> 
   Place(z, s);
   manoeuvre_ = &traffic_.Plan(obstacles, place_);
   first_stop_ = RoadObjects::kMost;
-  double first_s = std::numeric_limits<double>::infinity();
+  double first_s = profile_->length();
   for (std::size_t k = 0; k < manoeuvre_->stop_count; ++k) {
     if (manoeuvre_->stop_lines[k].s >= first_s) continue;
     first_s = manoeuvre_->stop_lines[k].s;
     first_stop_ = manoeuvre_->stop_objects[k];
   }
   progress_.Fill(place_.s, z_[kUpsilon], *manoeuvre_, z_ref_, u_ref_, s_ref_, disturbance);
-  const bool nowhere_to_go = s_ref_.back() - s_ref_.front() < kLeastDistance;
+  const bool nowhere_to_go =
+      s_ref_.back() - s_ref_.front() < kLeastDistance && first_s - place_.s < kLeastDistance;
   waiting_ = nowhere_to_go && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
 }
 

@@ -90,10 +90,11 @@ class ControlLoopTest : public testing::Test {
   bus::VehicleBus bus_;
   FakeController controller_;
   control::TimeReference reference_{StraightRoute(), 0.05};
+  control::RoadProfile profile_{StraightOn(), {}, {}};
   base::Time stopwatch_step_ = 0ms;  // by which the stopwatch goes on each time it is read
   base::Time stopwatch_{};
   control::TimedController timed_{std::make_unique<Forwarding>(controller_), reference_, {}};
-  ControlLoop loop_{{}, bus_, timed_, reference_, {}, [this] { return stopwatch_ += stopwatch_step_; }};
+  ControlLoop loop_{{}, bus_, timed_, reference_, profile_, [this] { return stopwatch_ += stopwatch_step_; }};
   bus::FakeVehicle vehicle_{bus_};
   base::Time now_ = 10s;
 };

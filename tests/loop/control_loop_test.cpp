@@ -117,7 +117,7 @@ TEST_F(ControlLoopTest, HeadingIsGivenUnwrappedToTheReference) {
   }
   const control::TimeReference reference(west, 0.05);
   control::TimedController timed(std::make_unique<Forwarding>(controller_), reference, {});
-  ControlLoop loop({}, bus_, timed, reference, {}, [] { return base::Time{}; });
+  ControlLoop loop({}, bus_, timed, reference, profile_, [] { return base::Time{}; });
   vehicle_.feedback.psi = -3.1;
   for (int i = 0; i < 8; ++i) {
     vehicle_.request.engage = i > 4;

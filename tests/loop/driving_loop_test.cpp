@@ -22,11 +22,6 @@ LoopSettings Settings(base::Time command_delay) {
   return settings;
 }
 
-control::Route StraightOn() {
-  const std::vector<control::RoutePiece> pieces{{.length = 99.5}};
-  return control::Route::FromPieces({}, kSpeed, pieces);
-}
-
 class DrivingLoopTest : public testing::Test {
  protected:
   explicit DrivingLoopTest(base::Time command_delay = {}) : settings_(Settings(command_delay)) {}
@@ -75,7 +70,8 @@ class DrivingLoopTest : public testing::Test {
                             profile_};
   LoopSettings settings_;
   ProgressController by_progress_{controller_, reference_};
-  ControlLoop loop_{settings_, bus_, by_progress_, reference_, kRoad, [] { return base::Time{}; }, &check_};
+  ControlLoop loop_{settings_, bus_, by_progress_, reference_, profile_, [] { return base::Time{}; },
+                    &check_};
   bus::FakeVehicle vehicle_{bus_};
   base::Time now_ = 10s;
 };
@@ -154,8 +150,9 @@ TEST_F(DrivingLoopTest, DriveEndsWhereTheRouteDoesWithTheVehicleAtRest) {
   while (vehicle_.pose.X < 99.0) EXPECT_EQ(Period().steering.mode, bus::Mode::kActive) << vehicle_.pose.X;
   EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);  // at the end, but not at rest
   vehicle_.motion.upsilon = 0.0;
-  EXPECT_NE(Period().steering.mode, bus::Mode::kActive);
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);
   EXPECT_EQ(loop_.report().cause, safety::Cause::kRouteEnd);
+  EXPECT_EQ(loop_.report().fault, bus::FaultCode::kRouteEnd);
 }
 
 class DelayedLoopTest : public DrivingLoopTest {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "control/mpc/timed_controller.hpp"
+#include "control/road/route.hpp"
 
 namespace loop {
 
@@ -97,6 +98,11 @@ inline std::vector<Eigen::Vector2d> StraightRoute() {
     points.emplace_back(0.5 * i, 0.0);
   }
   return points;
+}
+// The same as a path.
+inline control::Route StraightOn() {
+  const std::vector<control::RoutePiece> pieces{{.length = 99.5}};
+  return control::Route::FromPieces({}, 10.0, pieces);
 }
 
 }  // namespace loop

@@ -1,6 +1,8 @@
 #include "loop/route_tracker.hpp"
 
 #include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
 
 #include "tests/loop/fake_controller.hpp"
 
@@ -23,7 +25,8 @@ class RouteTrackerTest : public testing::Test {
   control::RoutePlace Track(const Snapshot& known) { return tracker_.Advance(known, true, Input::Zero()); }
 
   control::TimeReference reference_{StraightRoute(), 0.05};
-  RouteTracker tracker_{{}, reference_, control::RoadBounds{.left = 4.0, .right = -4.0}};
+  control::RoadProfile profile_{StraightOn(), control::RoadBounds{.left = 4.0, .right = -4.0}, {}};
+  RouteTracker tracker_{{}, reference_, profile_};
 };
 
 TEST_F(RouteTrackerTest, DisabledThePlaceIsSearchedForInEveryCycle) {
@@ -81,20 +84,20 @@ TEST_F(RouteTrackerTest, WithoutANewFreshStateTheVehicleIsWhereItsCommandsTookIt
   EXPECT_EQ(tracker_.motion().p, Eigen::Vector2d(19.6, 0.0));  // A measurement replaces the reckoning.
 }
 
-TEST_F(RouteTrackerTest, VehicleHasArrivedIfItStandsWithinTwoMetresOfTheEnd) {
+TEST_F(RouteTrackerTest, VehicleHasArrivedIfItStandsWithinHalfAMetreOfTheEnd) {
   constexpr double kEnd = 99.5;
-  EXPECT_TRUE(Search(At(0, kEnd - 1.9, 0.0, 0.2)).arrived);
-  EXPECT_FALSE(Search(At(0, kEnd - 2.1, 0.0, 0.2)).arrived);
-  EXPECT_FALSE(Search(At(0, kEnd, 2.1, 0.2)).arrived);
-  EXPECT_FALSE(Search(At(0, kEnd - 1.9, 0.0, 0.4)).arrived);
-  Snapshot stale = At(0, kEnd - 1.9, 0.0, 0.2);
+  EXPECT_TRUE(Search(At(0, kEnd - 0.4, 0.0, 0.2)).arrived);
+  EXPECT_TRUE(Search(At(0, kEnd + 0.4, 2.1, 0.2)).arrived);
+  EXPECT_FALSE(Search(At(0, kEnd - 0.6, 0.0, 0.2)).arrived);
+  EXPECT_FALSE(Search(At(0, kEnd - 0.4, 0.0, 0.4)).arrived);
+  Snapshot stale = At(0, kEnd - 0.4, 0.0, 0.2);
   EXPECT_TRUE(Track(stale).arrived);
   stale.state_fresh = false;
   EXPECT_FALSE(Track(stale).arrived);
 }
 
 TEST_F(RouteTrackerTest, OtherSettingsHoldFromTheNextCycleOn) {
-  Snapshot askew = At(0, 98.0, 0.0, 0.4);
+  Snapshot askew = At(0, 99.2, 0.0, 0.4);
   askew.state.z[control::kPsi] = -0.6;
   EXPECT_FALSE(Search(askew).on_route);
   EXPECT_FALSE(Search(askew).arrived);
@@ -103,7 +106,34 @@ TEST_F(RouteTrackerTest, OtherSettingsHoldFromTheNextCycleOn) {
   EXPECT_FALSE(Search(askew).arrived);
   tracker_.Reconfigure(0.5, 0.5);
   EXPECT_FALSE(Search(askew).on_route);
+  tracker_.Reconfigure(0.7, 0.5);
   EXPECT_TRUE(Search(askew).arrived);
+}
+
+// Two laps of a circuit, which begin and end at the same point.
+TEST(RouteTracker, OnACircuitTheVehicleHasArrivedAfterTheLastLapOnly) {
+  constexpr double kSpeed = 10.0, kPeriod = 0.05, kRadius = 20.0;
+  const double lap = 2.0 * std::numbers::pi * kRadius;
+  const std::vector<control::RoutePiece> pieces{
+      {.length = 2.0 * lap, .curvature_from = 1.0 / kRadius, .curvature_to = 1.0 / kRadius}};
+  const auto route = control::Route::FromPieces({}, kSpeed, pieces);
+  const control::TimeReference reference(control::SampleRoute(route, kPeriod), kPeriod);
+  const control::RoadProfile profile(route, control::RoadBounds{.left = 4.0, .right = -4.0}, {});
+  RouteTracker tracker({}, reference, profile);
+  const auto at = [&](double s, double speed) {
+    const control::RoutePoint point = route.At(s);
+    Snapshot known;
+    known.state_new = known.state_fresh = true;
+    known.state.z << point.X, point.Y, speed, 0.0, point.psi, 0.0;
+    return known;
+  };
+  const auto start = tracker.Advance(at(0.0, 0.0), false, Input::Zero());
+  EXPECT_TRUE(start.on_route);
+  EXPECT_FALSE(start.arrived);
+  for (double s = 0.0; s < 2.0 * lap; s += 0.5) {
+    const auto place = tracker.Advance(at(s, 0.0), true, Input::Zero());
+    EXPECT_EQ(place.arrived, s > 2.0 * lap - 0.5) << s;
+  }
 }
 
 }  // namespace

@@ -309,6 +309,10 @@ TEST(ModeMachine, OneStepOfRouteLeftIsEnoughToEngageAndToDriveOn) {
   EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).mode, bus::Mode::kActive);
   inputs.route_left = 0;
   EXPECT_FALSE(EngagementRequested(In(bus::Mode::kStandby, true), inputs));
+  EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).mode, bus::Mode::kSafeStop);
+  EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).cause, Cause::kRouteEnd);
+  inputs.standstill = true;
+  EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).mode, bus::Mode::kStandby);
   EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).cause, Cause::kRouteEnd);
 }
 
