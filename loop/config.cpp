@@ -36,6 +36,7 @@ void Derive(Config& config) {
   config.service.period = config.loop.period;
   config.service.timeout = base::FromSeconds(config.timeout.value_or(1.5 * t_s));
   config.loop.modes.degraded_cycles = static_cast<int>(std::lround(config.degraded_time / t_s));
+  config.loop.modes.hold_cycles = static_cast<int>(std::lround(config.hold_time / t_s));
   config.loop.vehicle = config.vehicle;
   config.mpc.t_s = config.affine.t_s = t_s;
 

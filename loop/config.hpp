@@ -56,6 +56,7 @@ struct Config {
   std::optional<double> engage_min_speed;  // [m/s]; none: the controller's default
   std::optional<control::State> P;         // none: mpc.Q
   double degraded_time = 1.0;              // [s], as a number of cycles in loop.modes
+  double hold_time = 2.0;                  // likewise
   double max_steering_rate = 0.6;          // [rad/s], bounds affine.rate_max, which is per step
   double max_jerk = 20.0;                  // [m/s³], likewise
 };

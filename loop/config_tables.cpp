@@ -18,6 +18,11 @@ ConfigTable MonitorTable() {
               Key(
                   "max_lost", [](Config& c) { return &c.loop.monitor.max_lost; }, {0, 13, ""},
                   "Number of frames that may be missing between two accepted ones", kIdle),
+              Key(
+                  "max_state_gap", [](Config& c) { return &c.loop.monitor.max_state_gap; }, {0.0, 0.5, "s"},
+                  "Age of the vehicle's state up to which its model bridges a gap; beyond it, and beyond "
+                  "_stale_periods_, the vehicle is stopped",
+                  kIdle),
           }};
 }
 
@@ -59,6 +64,11 @@ ConfigTable SafeStopTable() {
               Key(
                   "standstill_speed", [](Config& c) { return &c.loop.standstill_speed; }, {0.01, 5.0, "m/s"},
                   "Speed below which the vehicle stands", kIdle),
+              Key(
+                  "hold_time", [](Config& c) { return &c.hold_time; }, {0.0, 60.0, "s"},
+                  "Time for which the vehicle is held at standstill, and drives on if the cause of the stop "
+                  "is gone, before the driver has to ask again",
+                  kIdle),
           }};
 }
 

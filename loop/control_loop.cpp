@@ -21,8 +21,8 @@ LoopSettings WithinHorizon(LoopSettings settings, int horizon) {
 
 PlanRequest RequestOf(const safety::ModeState& mode, const safety::ModeInputs& inputs) {
   if (safety::EngagementRequested(mode, inputs)) return PlanRequest::kFirst;
-  if (!bus::Drives(mode.mode)) return PlanRequest::kNone;
-  const bool possible = inputs.state_new && inputs.state_fresh && inputs.route_left > 0;
+  if (!bus::Commands(mode.mode)) return PlanRequest::kNone;
+  const bool possible = inputs.state_fresh && inputs.route_left > 0;
   return possible ? PlanRequest::kNext : PlanRequest::kNoState;
 }
 
@@ -139,6 +139,7 @@ safety::ModeInputs ControlLoop::InputsOf(const Snapshot& known, const control::R
 
 void ControlLoop::AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) const {
   inputs.plan_fault = outcome.fault;
+  inputs.plan_new = outcome.accepted;
   inputs.plan_usable = planner_.active().Covers(outcome.step);
   inputs.plan_left = planner_.active().Left(outcome.step);
 }

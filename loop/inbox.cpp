@@ -60,25 +60,24 @@ Snapshot Inbox::TakeSnapshot(base::Time now, Trigger trigger) {
   }
   const VehicleState& state = states_.state();
   const auto rejected = [&](RxMessage message) { return monitor_.RecentlyRejected(message, now); };
-  Snapshot known{
-      .now = now,
-      .waited = trigger == Trigger::kState ? now - completed_ : base::Time{0},
-      .step = steps_.step(),
-      .state = state,
-      .state_new = trigger == Trigger::kState,
-      .state_fresh = state.complete && now - state.timestamp <= monitor_.StaleAfter(RxMessage::kPose),
-      .state_rejected =
-          rejected(RxMessage::kPose) || rejected(RxMessage::kMotion) || rejected(RxMessage::kFeedback),
-      .obstacles = obstacles_.obstacles(),
-      .obstacle_age = obstacles_.Age(now),
-      .obstacles_fresh = obstacles_.Age(now) <= monitor_.StaleAfter(RxMessage::kObstacleList),
-      .request_fresh = monitor_.Fresh(RxMessage::kDriverRequest, now),
-      .engage = request_.engage,
-      .released = released_,
-      .override_seen = override_seen_ || request_.brake || request_.steering_override,
-      .bus_up = bus_up_,
-      .silent = now - last_up_ > kSilentPeriods * period_,
-      .faulty_message = safety::FindFaultyMessage(monitor_, now)};
+  Snapshot known{.now = now,
+                 .waited = trigger == Trigger::kState ? now - completed_ : base::Time{0},
+                 .step = steps_.step(),
+                 .state = state,
+                 .state_new = trigger == Trigger::kState,
+                 .state_fresh = state.complete && now - state.timestamp <= monitor_.StateStaleAfter(),
+                 .state_rejected = rejected(RxMessage::kPose) || rejected(RxMessage::kMotion) ||
+                                   rejected(RxMessage::kFeedback),
+                 .obstacles = obstacles_.obstacles(),
+                 .obstacle_age = obstacles_.Age(now),
+                 .obstacles_fresh = obstacles_.Age(now) <= monitor_.StaleAfter(RxMessage::kObstacleList),
+                 .request_fresh = monitor_.Fresh(RxMessage::kDriverRequest, now),
+                 .engage = request_.engage,
+                 .released = released_,
+                 .override_seen = override_seen_ || request_.brake || request_.steering_override,
+                 .bus_up = bus_up_,
+                 .silent = now - last_up_ > kSilentPeriods * period_,
+                 .faulty_message = safety::FindFaultyMessage(monitor_, now)};
   released_ = false;
   override_seen_ = false;
   if (bus_up_) {

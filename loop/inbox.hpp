@@ -30,8 +30,8 @@ struct Snapshot {
   std::int64_t step = 0;  // periods since the loop began, by state counter and timer (StepCounter)
 
   VehicleState state;
-  bool state_new = false;  // a state set was completed for this cycle
-  bool state_fresh = false;
+  bool state_new = false;       // a state set was completed for this cycle
+  bool state_fresh = false;     // known, or the model can tell from the last one
   bool state_rejected = false;  // a frame of its messages was refused recently
 
   std::span<const control::Obstacle> obstacles;  // owned by the inbox

@@ -10,12 +10,12 @@ namespace {
 
 constexpr int kShareForIterations = 4;  // another iteration may begin within 1/4 of the deadline
 
-// The reason why a cycle that should have a new plan has none.
+// The reason why a cycle that should have a new plan has none, or none from a new state.
 std::optional<safety::Cause> FaultOf(const Outcome& outcome, bool state_new) {
   using safety::Cause;
-  if (outcome.accepted) return std::nullopt;
   if (outcome.late) return Cause::kDeadlineMissed;
-  if (outcome.solution == nullptr) return state_new ? std::nullopt : std::optional(Cause::kStateLate);
+  if (outcome.accepted || outcome.solution == nullptr)
+    return state_new ? std::nullopt : std::optional(Cause::kStateLate);
   return outcome.solution->status == control::SolverStatus::kSolved ? Cause::kPlanRejected
                                                                     : Cause::kSolverFailed;
 }

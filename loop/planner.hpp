@@ -38,8 +38,8 @@ struct PlannerSettings {
 enum class PlanRequest : std::uint8_t {
   kNone,     // the driver drives
   kFirst,    // commands are about to be enabled: nothing of an earlier drive may influence the plan
-  kNext,     // another plan
-  kNoState,  // another plan would be due, but there is no new fresh state, or no route left
+  kNext,     // another plan, without a new state from the predicted one
+  kNoState,  // another plan would be due, but there is no fresh state, or no route left
 };
 
 struct Outcome {
@@ -48,7 +48,7 @@ struct Outcome {
   bool late = false;                   // the deadline has passed
   std::int64_t step = 0;               // step of the command: later than the snapshot's if the cycle was late
   base::Time solve_time{};             // time from StartStopwatch to the end of planning
-  std::optional<safety::Cause> fault;  // why there is no new plan, if there should be one
+  std::optional<safety::Cause> fault;  // why there is no new plan from a new state, if there should be one
   // First violation that the check predicts for the solution. An accepted one fails no earlier than the last plan.
   std::optional<control::ConstraintViolation> rejection;
   // Constraint that the solution could not meet, or the one that most obstructs a problem that was not solved.

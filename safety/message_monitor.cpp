@@ -51,6 +51,7 @@ MessageMonitor::MessageMonitor(const bus::VehicleBus& bus, const MonitorSettings
 
 void MessageMonitor::Reconfigure(const MonitorSettings& settings) {
   max_lost_ = settings.max_lost;
+  max_state_gap_ = base::FromSeconds(settings.max_state_gap);
   for (Row& row : table_) {
     row.stale_after = base::FromSeconds(settings.stale_periods * row.period);
   }
@@ -120,6 +121,10 @@ base::Time MessageMonitor::Age(RxMessage message, base::Time now) const {
 
 base::Time MessageMonitor::StaleAfter(RxMessage message) const {
   return RowOf(message).stale_after;
+}
+
+base::Time MessageMonitor::StateStaleAfter() const {
+  return std::max(StaleAfter(RxMessage::kPose), max_state_gap_);
 }
 
 bool MessageMonitor::RecentlyRejected(RxMessage message, base::Time now) const {

@@ -83,6 +83,7 @@ struct Health {
 struct MonitorSettings {
   double stale_periods = 3.0;  // a message older than this many of its periods is stale; 1..1000
   int max_lost = 2;            // frames that may be missing, 0..13
+  double max_state_gap = 0.3;  // age of the vehicle's state up to which its model bridges a gap [s], 0..0.5
 };
 
 class MessageMonitor {
@@ -100,6 +101,8 @@ class MessageMonitor {
   // Time since the last accepted frame; Time::max() before the first.
   [[nodiscard]] base::Time Age(RxMessage message, base::Time now) const;
   [[nodiscard]] base::Time StaleAfter(RxMessage message) const;
+  // Age above which a set of the state's messages is of no use: that of the pose, or if it is longer the gap that is bridged.
+  [[nodiscard]] base::Time StateStaleAfter() const;
   // True if a frame of this message was refused within the last StaleAfter().
   [[nodiscard]] bool RecentlyRejected(RxMessage message, base::Time now) const;
   [[nodiscard]] Health HealthOf(RxMessage message, base::Time now) const;
@@ -130,6 +133,7 @@ class MessageMonitor {
 
   const bus::VehicleBus* bus_;
   int max_lost_ = 0;
+  base::Time max_state_gap_{};
   std::array<Row, kRxMessages> table_{};
   std::array<std::uint64_t, kRxFaults> counts_{};
   std::uint64_t lost_ = 0;

@@ -18,6 +18,12 @@ Cause SilenceCause(const ModeInputs& inputs) {
   return inputs.bus_up ? Cause::kSilent : Cause::kBusDown;
 }
 
+// True if nothing speaks against driving on.
+bool CanDriveOn(const ModeInputs& inputs) {
+  return inputs.Healthy() && inputs.engage && inputs.plan_new && inputs.route_left > 0 &&
+         !PresentFault(inputs);
+}
+
 int CountHealthy(const ModeState& state, const ModeInputs& inputs) {
   return inputs.Healthy() ? std::min(state.healthy_cycles + 1, kHealthyCycles) : 0;
 }
@@ -37,6 +43,7 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSetti
     next.mode = mode;
     next.cause = cause;
     next.armed = false;
+    next.recovered_cycles = next.standing_cycles = 0;
   };
 
   if (inputs.internal_error) {
@@ -84,14 +91,20 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSetti
       }
       break;
     case bus::Mode::kSafeStop:
+      next.recovered_cycles = CanDriveOn(inputs) ? state.recovered_cycles + 1 : 0;
+      next.standing_cycles = inputs.standstill ? state.standing_cycles + 1 : 0;
       if (inputs.override_seen) {
         enter(bus::Mode::kStandby, Cause::kOverride);
       } else if (withdrawn) {
         enter(bus::Mode::kStandby, Cause::kReleased);
-      } else if (inputs.standstill) {
-        enter(bus::Mode::kStandby, Cause::kStandstill);
-      } else if (inputs.silent) {
+      } else if (inputs.silent && !inputs.standstill) {
         enter(bus::Mode::kFault, SilenceCause(inputs));
+      } else if (next.recovered_cycles == kHealthyCycles) {
+        enter(bus::Mode::kActive, Cause::kRecovered);
+      } else if (inputs.standstill && inputs.route_left <= 0) {
+        enter(bus::Mode::kStandby, Cause::kRouteEnd);
+      } else if (next.standing_cycles > settings.hold_cycles) {
+        enter(bus::Mode::kStandby, Cause::kStandstill);
       }
       break;
     default:  // kFault

@@ -10,8 +10,9 @@
 // missing is lost: the driver has to ask again. (An edge in a cycle without a new state waits for the next state.)
 //
 // Degraded drives on while something is missing that is dispensable for a while: a new plan (the last one is
-// continued), the obstacles or the driver's request. A countdown gives the remaining cycles. When it ends, or at once
-// if something indispensable is missing, SafeStop brings the vehicle to a stop along its path.
+// continued), the state (it is predicted), the obstacles or the driver's request. A countdown gives the remaining cycles. When it ends, or at once
+// if something indispensable is missing, SafeStop brings the vehicle to a stop along its path. When all causes are gone,
+// plans are accepted and the driver still asks, the vehicle drives on, also from standstill for as long as it is held there.
 //
 // After many cycles without a sent command (the bus down or the process stopped) another node is assumed to drive;
 // commands stay disabled until the driver asks again.
@@ -29,7 +30,7 @@ using bus::Commands;
 using bus::Drives;
 using bus::Mode;
 
-// Consecutive healthy cycles required to leave Init and to engage.
+// Consecutive healthy cycles required to leave Init, to engage and to drive on from SafeStop.
 inline constexpr int kHealthyCycles = 3;
 
 struct ModeInputs {
@@ -44,6 +45,7 @@ struct ModeInputs {
   bool override_seen = false;  // brake or steering override since the previous cycle
   bool near_route = false;     // on the road, along it, fast enough
   bool plan_usable = false;    // there is a plan with a command for this cycle
+  bool plan_new = false;       // a plan was accepted in this cycle
   int plan_left = 0;           // cycles after this one for which that plan has a command
   std::optional<bus::ModeCause> plan_fault =
       std::nullopt;             // why this cycle has no new plan, if it should have one
@@ -62,15 +64,18 @@ struct ModeInputs {
 
 struct ModeSettings {
   int degraded_cycles = 20;  // consecutive cycles in Degraded before the vehicle is stopped; ≥ 0
+  int hold_cycles = 40;      // cycles for which SafeStop holds the vehicle at standstill; ≥ 0
 };
 
 struct ModeState {
   bus::Mode mode = bus::Mode::kInit;
   bus::Mode previous = bus::Mode::kInit;  // mode before the present one
   Cause cause = Cause::kStart;
-  int healthy_cycles = 0;  // consecutive, up to kHealthyCycles
-  bool armed = false;      // in Standby: engage was seen false, so that true is a rising edge
-  int degraded_left = 0;   // in Degraded: further cycles before SafeStop
+  int healthy_cycles = 0;    // consecutive, up to kHealthyCycles
+  bool armed = false;        // in Standby: engage was seen false, so that true is a rising edge
+  int degraded_left = 0;     // in Degraded: further cycles before SafeStop
+  int recovered_cycles = 0;  // in SafeStop: consecutive cycles without a cause to stop
+  int standing_cycles = 0;   // in SafeStop: consecutive cycles at standstill, up to hold_cycles
 };
 
 [[nodiscard]] ModeState Next(const ModeState& state, const ModeInputs& inputs,

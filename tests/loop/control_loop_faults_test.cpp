@@ -79,16 +79,20 @@ TEST_F(ControlLoopTest, WithoutAFirstPlanItDoesNotEngage) {
   EXPECT_TRUE(loop_.report().engagement_refused);
 }
 
-TEST_F(ControlLoopTest, MissingStateIsBridgedByThePlanAndThenStopsTheVehicle) {
+TEST_F(ControlLoopTest, MissingStateIsPredictedAndThenStopsTheVehicle) {
   Engage();
-  for (int age = 1; age <= 3; ++age) {
+  const double last = controller_.z[control::kX];
+  for (int age = 1; age <= 6; ++age) {
     const Sent sent = TimerPeriod();
     EXPECT_EQ(sent.steering.mode, bus::Mode::kDegraded);
     EXPECT_EQ(sent.status.fault_code, bus::FaultCode::kStateLate);
-    EXPECT_EQ(sent.steering.plan_age, age);
-    EXPECT_NEAR(sent.steering.delta, 0.01 * (age + 1), 1e-6);
+    EXPECT_EQ(sent.steering.plan_age, 0);
+    EXPECT_EQ(sent.steering.state_counter, 15);
+    // At 10 m/s, with the accelerations of −0.1 m/s² that were commanded.
+    const double t = 0.05 * age;
+    EXPECT_NEAR(controller_.z[control::kX], last + 10.0 * t - 0.05 * t * t, 0.01);
   }
-  Sent sent = TimerPeriod();  // the state is older than three periods now
+  Sent sent = TimerPeriod();  // the state is older than 0.3 s now
   EXPECT_EQ(sent.steering.mode, bus::Mode::kSafeStop);
   EXPECT_EQ(sent.status.fault_code, bus::FaultCode::kStateStale);
   for (int i = 0; i < 100; ++i) {
@@ -101,7 +105,7 @@ TEST_F(ControlLoopTest, MissingStateIsBridgedByThePlanAndThenStopsTheVehicle) {
 TEST_F(ControlLoopTest, CorruptedStateStopsTheVehicleAndIsNamed) {
   Engage();
   Sent sent;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 7; ++i) {
     Advance();
     Give(vehicle_.Request());
     Give(vehicle_.Obstacles());
@@ -192,8 +196,9 @@ TEST_F(ControlLoopTest, SafeStopEndsAtOnceWhenTheDriverTakesOver) {
   }
 }
 
-TEST_F(ControlLoopTest, SafeStopFollowsTheRestOfThePlanAndEndsAtStandstill) {
+TEST_F(ControlLoopTest, SafeStopFollowsTheRestOfThePlanAndIsHeldAtStandstillForAWhile) {
   Engage();
+  controller_.status = control::SolverStatus::kInfeasible;
   loop_.SetBusUp(false);
   Sent sent = Period();
   EXPECT_EQ(sent.steering.mode, bus::Mode::kSafeStop);
@@ -201,11 +206,33 @@ TEST_F(ControlLoopTest, SafeStopFollowsTheRestOfThePlanAndEndsAtStandstill) {
   loop_.SetBusUp(true);
   sent = Period();
   EXPECT_EQ(sent.steering.mode, bus::Mode::kSafeStop);
-  EXPECT_NEAR(sent.steering.delta, 0.02, 1e-6);  // u_1 of the plan made one cycle before
+  EXPECT_NEAR(sent.steering.delta, 0.03, 1e-6);  // u_2 of the plan made two cycles before
   vehicle_.motion.upsilon = 0.1;
-  sent = Period();
-  EXPECT_EQ(sent.steering.mode, bus::Mode::kStandby);
+  for (int i = 0; i < 40; ++i) {
+    sent = Period();
+    EXPECT_EQ(sent.steering.mode, bus::Mode::kSafeStop) << i;
+    EXPECT_NEAR(sent.steering.delta, 0.04, 0.01) << i;
+    EXPECT_LT(sent.acceleration.acceleration, 0.0) << i;
+  }
+  EXPECT_EQ(Period().steering.mode, bus::Mode::kStandby);
   EXPECT_EQ(loop_.report().cause, safety::Cause::kStandstill);
+}
+
+TEST_F(ControlLoopTest, WhenItsCauseIsGoneTheStopEndsAndTheVehicleDrivesOn) {
+  for (const double speed : {8.0, 0.1}) {  // while it stops, and held at standstill
+    vehicle_.request.engage = false;
+    vehicle_.motion.upsilon = 10.0;
+    Engage();
+    loop_.SetBusUp(false);
+    EXPECT_EQ(Period().steering.mode, bus::Mode::kSafeStop);
+    loop_.SetBusUp(true);
+    vehicle_.motion.upsilon = speed;
+    EXPECT_EQ(Period().steering.mode, bus::Mode::kSafeStop);
+    EXPECT_EQ(Period().steering.mode, bus::Mode::kSafeStop);
+    EXPECT_EQ(Period().steering.mode, bus::Mode::kActive);
+    EXPECT_EQ(loop_.report().cause, safety::Cause::kRecovered);
+    EXPECT_EQ(loop_.report().plan_age, 0);
+  }
 }
 
 TEST_F(ControlLoopTest, BusThatWasAwayForLongFindsNoCommandEnabled) {

@@ -90,7 +90,7 @@ TEST_F(InboxTest, InputsAreFreshForTheConfiguredNumberOfPeriods) {
     for (const bool fresh : {true, false}) {
       const base::Time now = fresh ? last : last + 1ns;
       const Snapshot known = Take(now);
-      EXPECT_EQ(known.state_fresh, fresh);
+      EXPECT_TRUE(known.state_fresh);
       EXPECT_EQ(known.obstacles_fresh, fresh);
       EXPECT_EQ(known.request_fresh, fresh);
       EXPECT_EQ(known.faulty_message.has_value(), !fresh);
@@ -102,6 +102,19 @@ TEST_F(InboxTest, InputsAreFreshForTheConfiguredNumberOfPeriods) {
   expect_fresh_until(10s + 150ms);
   inbox_.Reconfigure({.stale_periods = 5.0});
   expect_fresh_until(10s + 250ms);
+}
+
+// Both the number of periods and the gap that is bridged must be exceeded.
+TEST_F(InboxTest, StateIsOfUseUpToTheConfiguredGap) {
+  Give(vehicle_.All(), 10s);
+  EXPECT_TRUE(Take(10s + 300ms).state_fresh);
+  EXPECT_FALSE(Take(10s + 300ms + 1ns).state_fresh);
+  inbox_.Reconfigure({.max_state_gap = 0.2});
+  EXPECT_TRUE(Take(10s + 200ms).state_fresh);
+  EXPECT_FALSE(Take(10s + 200ms + 1ns).state_fresh);
+  inbox_.Reconfigure({.stale_periods = 5.0, .max_state_gap = 0.2});
+  EXPECT_TRUE(Take(10s + 250ms).state_fresh);
+  EXPECT_FALSE(Take(10s + 250ms + 1ns).state_fresh);
 }
 
 TEST_F(InboxTest, RefusedFrameOfAStateIsToldAndCompletesNoSet) {

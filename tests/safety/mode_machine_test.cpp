@@ -55,7 +55,6 @@ const Row::To kGoesOn{bus::Mode::kActive, Cause::kRecovered};
 const Row::To kRecovers{bus::Mode::kStandby, Cause::kRecovered};
 const Row::To kYields{bus::Mode::kStandby, Cause::kOverride};
 const Row::To kLetsGo{bus::Mode::kStandby, Cause::kReleased};
-const Row::To kStands{bus::Mode::kStandby, Cause::kStandstill};
 const Row::To kFails{bus::Mode::kFault, Cause::kInternalError};
 
 Row::To Degrades(Cause cause) {
@@ -110,7 +109,7 @@ const std::vector<Row> kTable = {
     {"route end", [](ModeInputs& i) { i.route_left = 0; },
      kComesUp, kStaysInStandby, Stops(Cause::kRouteEnd), Stops(Cause::kRouteEnd), kStaysInSafeStop, kStaysInFault},
     {"standstill", [](ModeInputs& i) { i.standstill = true; },
-     kComesUp, kStaysInStandby, kStaysInActive, kGoesOn, kStands, kStaysInFault},
+     kComesUp, kStaysInStandby, kStaysInActive, kGoesOn, kStaysInSafeStop, kStaysInFault},
     {"silence", [](ModeInputs& i) { i.silent = true; },
      kComesUp, kStaysInStandby, Gives(Cause::kSilent), Gives(Cause::kSilent), Gives(Cause::kSilent), kStaysInFault},
     {"silence, bus down", [](ModeInputs& i) { i.silent = true; i.bus_up = false; },
@@ -179,6 +178,56 @@ TEST(ModeMachine, WithNoTimeToSpendInDegradedItStopsAtOnce) {
   const ModeState state = Next(In(bus::Mode::kActive), inputs, {.degraded_cycles = 0});
   EXPECT_EQ(state.mode, bus::Mode::kSafeStop);
   EXPECT_EQ(state.cause, Cause::kSolverFailed);
+}
+
+TEST(ModeMachine, SafeStopIsLeftAfterThreeCyclesInARowWithoutACause) {
+  ModeInputs good = Well();
+  good.plan_new = true;
+  const std::vector<std::pair<std::string, std::function<void(ModeInputs&)>>> causes = {
+      {"bus", [](ModeInputs& i) { i.bus_up = false; }},
+      {"state", [](ModeInputs& i) { i.state_fresh = false; }},
+      {"late state", [](ModeInputs& i) { i.plan_fault = Cause::kStateLate; }},
+      {"obstacles", [](ModeInputs& i) { i.obstacles_fresh = false; }},
+      {"request", [](ModeInputs& i) { i.request_fresh = false; }},
+      {"route", [](ModeInputs& i) { i.route_left = 0; }},
+      {"plan", [](ModeInputs& i) { i.plan_new = false; }}};
+  for (const bool standstill : {false, true}) {
+    good.standstill = standstill;
+    for (const auto& [name, happens] : causes) {
+      ModeInputs bad = good;
+      happens(bad);
+      if (standstill && bad.route_left <= 0) continue;  // the vehicle has arrived
+      ModeState state = Next(Next(In(bus::Mode::kSafeStop), good), good);
+      EXPECT_EQ(state.mode, bus::Mode::kSafeStop);
+      state = Next(Next(Next(state, bad), good), good);
+      EXPECT_EQ(state.mode, bus::Mode::kSafeStop) << name;
+      state = Next(state, good);
+      EXPECT_EQ(state.mode, bus::Mode::kActive) << name;
+      EXPECT_EQ(state.cause, Cause::kRecovered);
+      EXPECT_EQ(state.previous, bus::Mode::kSafeStop);
+    }
+  }
+}
+
+TEST(ModeMachine, SafeStopHoldsTheVehicleAtStandstillForAWhile) {
+  ModeInputs stands = Well();
+  stands.standstill = true;
+  ModeInputs moves = Well();
+  const ModeSettings settings{.hold_cycles = 3};
+  ModeState state = In(bus::Mode::kSafeStop);
+  for (int i = 0; i < 3; ++i) state = Next(state, stands, settings);
+  state = Next(state, moves, settings);  // on a slope, say: the count begins anew
+  for (int i = 0; i < 3; ++i) {
+    state = Next(state, stands, settings);
+    EXPECT_EQ(state.mode, bus::Mode::kSafeStop);
+  }
+  state = Next(state, stands, settings);
+  EXPECT_EQ(state.mode, bus::Mode::kStandby);
+  EXPECT_EQ(state.cause, Cause::kStandstill);
+  stands.route_left = 0;
+  state = Next(In(bus::Mode::kSafeStop), stands, settings);
+  EXPECT_EQ(state.mode, bus::Mode::kStandby);
+  EXPECT_EQ(state.cause, Cause::kRouteEnd);
 }
 
 TEST(ModeMachine, InitIsLeftAfterThreeHealthyCyclesInARow) {
