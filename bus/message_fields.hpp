@@ -144,7 +144,7 @@ inline constexpr FaultCode LastOf(FaultCode) {
   return FaultCode::kPlanRejected;
 }
 inline constexpr ModeCause LastOf(ModeCause) {
-  return ModeCause::kPlanRejected;
+  return ModeCause::kStopDue;
 }
 
 // Conversion of a member to the physical value of its signal, and back; false if the member cannot hold the value.

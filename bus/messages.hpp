@@ -147,6 +147,7 @@ enum class ModeCause : std::uint8_t {
   kSolverFailed = 17,
   kDeadlineMissed = 18,
   kPlanRejected = 19,
+  kStopDue = 20,  // a clear stop begins now, and none that begins later is clear
 };
 
 struct ControllerStatus {

@@ -7,17 +7,12 @@ control::Input CommandSource::Applied(const VehicleState& state, bool commanding
 }
 
 safety::LimitResult CommandSource::Command(bus::Mode mode, std::int64_t step, const ActivePlan& plan,
-                                           const control::RouteMotion& motion, const VehicleState& state,
+                                           const control::Input& stop, const VehicleState& state,
                                            const control::Input& applied) const {
   if (bus::Drives(mode)) {
     return limiter_.Limit(plan.At(step), applied, plan.Age(step));
   }
-  if (mode == bus::Mode::kSafeStop) {
-    // First the steering of the rest of the last plan, then steering along its path; δ never jumps to zero.
-    const double delta = plan.Covers(step) ? plan.At(step)[control::kDelta]
-                                           : stop_.Steering(motion, stop_offset_, applied[control::kDelta]);
-    return limiter_.Limit({delta, -stop_deceleration_}, applied, 0);
-  }
+  if (mode == bus::Mode::kSafeStop) return limiter_.Limit(stop, applied, 0);
   return Measured(state);
 }
 

@@ -44,12 +44,10 @@ ControlLoop::ControlLoop(const LoopSettings& settings, const bus::VehicleBus& bu
                 .command_delay = settings.command_delay,
                 .vehicle = settings.vehicle,
                 .offset_free = settings.offset_free,
-                .mu = settings.mu},
-               controller, std::move(stopwatch), check),
-      commands_(settings_.limits,
-                control::PathStop({.vehicle = settings.vehicle, .t_s = base::ToSeconds(settings.period)},
-                                  reference),
-                settings.stop_deceleration),
+                .mu = settings.mu,
+                .stop_deceleration = settings.stop_deceleration},
+               controller, profile, std::move(stopwatch), check),
+      commands_(settings_.limits),
       gate_(bus),
       reports_(settings.period) {
   frames_.reserve(kCommands + kReports + static_cast<std::size_t>(controller.horizon()) + 1);
@@ -61,7 +59,7 @@ void ControlLoop::Reconfigure(const LoopSettings& settings) {
   settings_.limits = limits;
   inbox_.Reconfigure(settings.monitor);
   tracker_.Reconfigure(settings.engage_max_heading_error, settings.standstill_speed);
-  commands_.Reconfigure(settings.stop_deceleration);
+  planner_.Reconfigure(settings.stop_deceleration);
 }
 
 bool ControlLoop::Receive(const can::Frame& frame, base::Time now) {
@@ -83,14 +81,13 @@ std::span<const can::Frame> ControlLoop::Cycle(base::Time now, Trigger trigger) 
   safety::ModeInputs inputs = InputsOf(known, place, progress);
   const PlanRequest request = RequestOf(before, inputs);
   const Outcome outcome = planner_.Plan(request, known, place, commanding, applied);
-  if (outcome.accepted) commands_.PlanStop(outcome.solution->z, tracker_.motion());
   AddPlan(outcome, inputs);
 
   // 3. The mode.
   mode_ = safety::Next(before, inputs, settings_.modes);
 
   // 4. The command, through limiter and gate. If one of them refuses it, the mode becomes Fault.
-  const safety::LimitResult limited = Issue(known, outcome, applied, inputs);
+  const safety::LimitResult limited = Issue(known, place, outcome, applied, inputs);
   if (bus::Commands(mode_.mode)) {
     commands_.Apply(*limited.command);
   } else {
@@ -140,16 +137,21 @@ safety::ModeInputs ControlLoop::InputsOf(const Snapshot& known, const control::R
 void ControlLoop::AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) const {
   inputs.plan_fault = outcome.fault;
   inputs.plan_new = outcome.accepted;
+  inputs.stop_due = outcome.stop_due;
   inputs.plan_usable = planner_.active().Covers(outcome.step);
   inputs.plan_left = planner_.active().Left(outcome.step);
 }
 
 // Encodes the command of the mode. If limiter or encoder refuse it, the mode becomes Fault and the measured inputs are
 // encoded, disabled.
-safety::LimitResult ControlLoop::Issue(const Snapshot& known, const Outcome& outcome,
-                                       const control::Input& applied, safety::ModeInputs& inputs) {
+safety::LimitResult ControlLoop::Issue(const Snapshot& known, const control::RoutePlace& place,
+                                       const Outcome& outcome, const control::Input& applied,
+                                       safety::ModeInputs& inputs) {
+  const control::Input stop = mode_.mode == bus::Mode::kSafeStop
+                                  ? planner_.StopInput(known, place, tracker_.motion(), applied)
+                                  : applied;
   safety::LimitResult limited =
-      commands_.Command(mode_.mode, outcome.step, planner_.active(), tracker_.motion(), known.state, applied);
+      commands_.Command(mode_.mode, outcome.step, planner_.active(), stop, known.state, applied);
   if (!limited.command || !Encode(limited, known, outcome)) {
     inputs.internal_error = true;
     mode_ = safety::Next(mode_, inputs, settings_.modes);

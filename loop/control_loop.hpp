@@ -101,8 +101,9 @@ class ControlLoop {
   [[nodiscard]] safety::ModeInputs InputsOf(const Snapshot& known, const control::RoutePlace& place,
                                             const control::RouteProgress& progress) const;
   void AddPlan(const Outcome& outcome, safety::ModeInputs& inputs) const;
-  [[nodiscard]] safety::LimitResult Issue(const Snapshot& known, const Outcome& outcome,
-                                          const control::Input& applied, safety::ModeInputs& inputs);
+  [[nodiscard]] safety::LimitResult Issue(const Snapshot& known, const control::RoutePlace& place,
+                                          const Outcome& outcome, const control::Input& applied,
+                                          safety::ModeInputs& inputs);
   [[nodiscard]] bool Encode(const safety::LimitResult& limited, const Snapshot& known,
                             const Outcome& outcome);
 

@@ -14,6 +14,19 @@ bool Acceptable(const control::Plan& plan, int horizon) {
          std::ranges::all_of(plan.z, [](const control::State& z) { return z.allFinite(); });
 }
 
+// True if there is a clear stop behind the rest of the last plan.
+bool StopsLater(control::PlanCheck& check, const Present& present) {
+  if (present.plan.empty()) return false;
+  static_cast<void>(check.Validate(present.plan));
+  return check.FindStop().stop.has_value();
+}
+
+// True if a stop is clear that begins at once.
+bool StopsNow(const control::PlanCheck& check, const Present& present) {
+  return present.stop_path != nullptr &&
+         check.FindStop(*present.stop_path, present.acceleration).stop.has_value();
+}
+
 }  // namespace
 
 SolverOutcome OnBus(control::SolverStatus status) {
@@ -36,13 +49,24 @@ bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
   return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
 }
 
-CheckVerdict CheckPlan(const control::PlanCheck& check, std::span<const control::Input> plan,
-                       std::span<const control::Input> last) {
-  CheckVerdict verdict{.violation = check.Validate(plan), .ruled_out = false};
+CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input> plan,
+                       const Present& present) {
+  const auto violation = check.Validate(plan);
+  const control::StopVerdict behind = check.FindStop();
+  CheckVerdict verdict{.violation = violation ? violation : behind.violation, .ruled_out = false};
   if (!verdict.violation) return verdict;
-  const auto of_last = check.Validate(last);
-  verdict.ruled_out = !of_last || of_last->constraint.step > verdict.violation->constraint.step;
+  if (violation) {
+    const auto of_last = check.Validate(present.plan);
+    verdict.ruled_out = !of_last || of_last->constraint.step > violation->constraint.step;
+  }
+  if (!behind.stop) {
+    verdict.ruled_out = verdict.ruled_out || StopsLater(check, present) || StopsNow(check, present);
+  }
   return verdict;
+}
+
+bool StopIsDue(control::PlanCheck& check, const Present& present) {
+  return !StopsLater(check, present) && StopsNow(check, present);
 }
 
 }  // namespace loop

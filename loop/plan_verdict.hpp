@@ -22,14 +22,24 @@ struct SolverOutcome {
 // kNone if it may be followed.
 [[nodiscard]] bus::FaultCode Refusal(const control::Plan& plan, int horizon);
 
-// The first violation of a plan from the start that `check` was given, and whether it rules the plan out. It does not if the last
-// plan would fail no later: then the new plan, made from newer data, is the lesser evil. `last`: the inputs of the last
-// plan from now on; empty if there is none, in which case any violation rules out the new plan.
+// What the vehicle is doing, from now on.
+struct Present {
+  std::span<const control::Input> plan;          // rest of the last plan; empty if there is none
+  const control::StopPath* stop_path = nullptr;  // along which it can brake; null while the driver drives
+  double acceleration = 0.0;                     // [m/s²]
+};
+
+// The first violation of a plan from the start that `check` was given, or what stands in the way of each stop behind it; and
+// whether it rules the plan out. It does not if the last plan would fail no later, or if there is no clear stop anyway: then
+// the new plan, made from newer data, is the lesser evil.
 struct CheckVerdict {
   std::optional<control::ConstraintViolation> violation;
   bool ruled_out = false;
 };
-[[nodiscard]] CheckVerdict CheckPlan(const control::PlanCheck& check, std::span<const control::Input> plan,
-                                     std::span<const control::Input> last);
+[[nodiscard]] CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input> plan,
+                                     const Present& present);
+
+// True if the vehicle must stop now: a stop is clear that begins at once, but none that begins later.
+[[nodiscard]] bool StopIsDue(control::PlanCheck& check, const Present& present);
 
 }  // namespace loop

@@ -33,6 +33,7 @@ constexpr auto kCauses = std::to_array<CauseRow>({
     {Cause::kSolverFailed, "problem not solved", FaultCode::kSolverNumericalFailure, Severity::kSoft},
     {Cause::kDeadlineMissed, "", FaultCode::kDeadlineMissed, Severity::kSoft},
     {Cause::kPlanRejected, "", FaultCode::kPlanRejected, Severity::kSoft},
+    {Cause::kStopDue, "last clear stop", FaultCode::kPlanRejected, Severity::kHard},
 });
 static_assert(kCauses.size() == static_cast<std::size_t>(LastOf(Cause{})) + 1);
 

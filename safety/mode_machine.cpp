@@ -11,6 +11,7 @@ std::optional<Cause> HardFault(const ModeInputs& inputs) {
   if (fault && IsHard(*fault)) return fault;
   if (inputs.route_left <= 0) return Cause::kRouteEnd;
   if (!inputs.plan_usable) return Cause::kPlanExhausted;
+  if (inputs.stop_due) return Cause::kStopDue;
   return std::nullopt;
 }
 

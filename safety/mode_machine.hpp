@@ -46,6 +46,7 @@ struct ModeInputs {
   bool near_route = false;     // on the road, along it, fast enough
   bool plan_usable = false;    // there is a plan with a command for this cycle
   bool plan_new = false;       // a plan was accepted in this cycle
+  bool stop_due = false;       // there is a clear stop now, but none that begins later
   int plan_left = 0;           // cycles after this one for which that plan has a command
   std::optional<bus::ModeCause> plan_fault =
       std::nullopt;             // why this cycle has no new plan, if it should have one

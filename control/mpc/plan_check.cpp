@@ -5,9 +5,11 @@
 #include <limits>
 
 #include "control/road/keep_out.hpp"
+#include "control/traffic/occupancy.hpp"
 #include "control/vehicle/discrete_model.hpp"
 #include "control/vehicle/geometry.hpp"
 #include "control/vehicle/obstacle_geometry.hpp"
+#include "control/vehicle/steady_cornering.hpp"
 
 namespace control {
 namespace {
@@ -16,8 +18,10 @@ using Eigen::Vector2d;
 
 constexpr double kRoadTolerance = 0.02;  // [m]
 constexpr double kGripTolerance = 0.3;   // [m/s²]
-constexpr double kLongestPlan = 3.0;     // time within which objects count [s]
-constexpr double kStrongest = 2.0;       // acceleration of the vehicle [m/s²]
+constexpr double kLongest = 8.0;         // time within which objects count [s]
+constexpr std::size_t kMostSteps = 200;
+constexpr double kInFront = 0.5;  // least gap to an object before which the vehicle stops [m]
+constexpr double kReach = 30.0;   // way that an acceleration adds within a plan [m]
 
 Vector2d CornerAt(const State& z, const Vector2d& corner) {
   return Position(z) + Rotate(z[kPsi], corner);
@@ -29,8 +33,18 @@ PlanCheck::PlanCheck(const PlanCheckSettings& settings, const RoadProfile& profi
     : settings_(settings),
       model_(BlendedModel(settings.vehicle), settings.t_s),
       profile_(&profile),
-      objects_(settings.footprint, kLongestPlan, profile),
-      mu_(settings.mu) {}
+      objects_(settings.footprint, kLongest, profile),
+      reserved_(settings.footprint),
+      mu_(settings.mu),
+      path_(settings.vehicle, profile, kMostSteps, settings.footprint.half_width) {
+  reserved_.front += kInFront;
+  predicted_.reserve(kMostSteps + 1);
+  accelerations_.reserve(kMostSteps);
+}
+
+void PlanCheck::Reconfigure(double stop_deceleration) {
+  settings_.stop_deceleration = stop_deceleration;
+}
 
 // The distance of the outermost corner beyond the road's edge [m]; negative if all corners are on it. Updates `s`.
 double PlanCheck::OffRoad(const State& z, double& s) const {
@@ -59,16 +73,23 @@ void PlanCheck::Begin(const State& z, double s, std::span<const Obstacle> obstac
   z_ = z;
   s_ = place.s;
   obstacles_ = obstacles;
+  off_road_ = std::max(OffRoad(z, s_), 0.0) + kRoadTolerance;
   objects_.Select(obstacles, {.s = place.s, .lateral = place.lateral, .speed = z[kUpsilon]},
-                  kLongestPlan * (std::max(z[kUpsilon], 0.0) + kLongestPlan * kStrongest));
+                  kLongest * std::max(z[kUpsilon], 0.0) + kReach);
+  for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
+    const Obstacle& obstacle = obstacles_[objects_.objects()[k].index];
+    touched_[k] = Overlap(obstacle, settings_.footprint, z) > 0.0;
+    near_[k] = Overlap(obstacle, reserved_, z) > 0.0;
+  }
 }
 
-std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u) const {
+std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u) {
   State now = z_;
   double s = s_;
-  const double off_road = std::max(OffRoad(now, s), 0.0) + kRoadTolerance;
+  predicted_.assign(1, z_);
+  accelerations_.clear();
   const double grip = std::max(BeyondGrip(now, Input::Zero()), 0.0) + kGripTolerance;
-  for (std::size_t i = 0; i < u.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(u.size(), kMostSteps); ++i) {
     now = model_.Step(now, u[i]);
     const int step = static_cast<int>(i) + 1;
     for (const RoadObject& object : objects_.objects()) {
@@ -82,7 +103,7 @@ std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u)
       }
     }
     const double out = OffRoad(now, s);
-    if (out > off_road) {
+    if (out > off_road_) {
       return ConstraintViolation{.constraint = {.kind = ConstraintKind::kRoad, .index = 0, .step = step},
                                  .amount = out};
     }
@@ -90,6 +111,131 @@ std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u)
     if (beyond > grip) {
       return ConstraintViolation{.constraint = {.kind = ConstraintKind::kFriction, .index = 0, .step = step},
                                  .amount = beyond};
+    }
+    predicted_.push_back(now);
+    accelerations_.push_back(u[i][kAcceleration]);
+  }
+  return std::nullopt;
+}
+
+StopVerdict PlanCheck::FindStop() {
+  const std::size_t steps = accelerations_.size();
+  path_.Follow(predicted_, s_);
+  StopVerdict verdict;
+  std::size_t checked = 0;  // steps in which the others may do what they can
+  for (const std::size_t after : {std::size_t{1}, steps / 2, steps}) {
+    if (after > steps || after <= checked) continue;
+    for (double s = s_; checked < after; ++checked) {
+      const State& z = predicted_[checked + 1];
+      s = profile_->Project(Position(z), s).s;
+      if (const auto contact =
+              Contact(settings_.footprint, z, s, static_cast<double>(checked + 1) * settings_.t_s)) {
+        if (!verdict.violation) verdict.violation = contact;
+        return verdict;
+      }
+    }
+    const State& z = predicted_[after];
+    const Braking from{.distance = path_.DistanceOf(Position(z)),
+                       .speed = z[kUpsilon],
+                       .acceleration = accelerations_[after - 1],
+                       .time = static_cast<double>(after) * settings_.t_s};
+    for (const double deceleration : {settings_.stop_deceleration, settings_.hardest_deceleration}) {
+      const auto violation = Brake(reserved_, path_, from, deceleration);
+      if (!violation)
+        return {.stop = Stop{.after = static_cast<int>(after), .deceleration = deceleration},
+                .violation = {}};
+      if (after == 1) verdict.violation = violation;
+    }
+  }
+  return verdict;
+}
+
+StopVerdict PlanCheck::FindStop(const StopPath& path, double acceleration) const {
+  const Braking from{
+      .distance = path.DistanceOf(Position(z_)), .speed = z_[kUpsilon], .acceleration = acceleration};
+  StopVerdict verdict;
+  for (const double deceleration : {settings_.stop_deceleration, settings_.hardest_deceleration}) {
+    verdict.violation = Brake(settings_.footprint, path, from, deceleration);
+    if (!verdict.violation) return {.stop = Stop{.after = 0, .deceleration = deceleration}, .violation = {}};
+  }
+  return verdict;
+}
+
+// The first contact that is possible with a vehicle at `z`, beside the road's arc length s, `time` later.
+std::optional<ConstraintViolation> PlanCheck::Contact(const Footprint& footprint, const State& z, double s,
+                                                      double time) const {
+  const double reach = std::hypot(std::max(reserved_.front, reserved_.rear), reserved_.half_width);
+  for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
+    if (touched_[k]) continue;
+    const RoadObject& object = objects_.objects()[k];
+    const Obstacle& obstacle = obstacles_[object.index];
+    const double after = TimeToNearest(obstacle, object, time, Position(z), s, s_);
+    const double far = object.half_length + object.half_width + reach;
+    if (!object.crosses && std::abs(object.SAt(after) - s) > far) continue;
+    const Obstacle then = Predict(obstacle, object, *profile_, after);
+    if ((Position(z) - Vector2d(then.X, then.Y)).squaredNorm() > far * far) continue;
+    const double overlap = Overlap(then, near_[k] ? settings_.footprint : footprint, z);
+    if (overlap <= 0.0) continue;
+    const int step = static_cast<int>(std::lround(time / settings_.t_s));
+    return ConstraintViolation{
+        .constraint = {.kind = ConstraintKind::kObstacle, .index = obstacle.id, .step = step},
+        .amount = overlap};
+  }
+  return std::nullopt;
+}
+
+double PlanCheck::Deceleration(const StopPath& path, const std::optional<Stop>& stop) const {
+  return Brakes(z_[kUpsilon], path.At(path.DistanceOf(Position(z_))).curvature,
+                stop ? stop->deceleration : settings_.hardest_deceleration);
+}
+
+// The tyres brake with what the bend leaves them, but always a little [m/s²].
+double PlanCheck::Brakes(double speed, double curvature, double deceleration) const {
+  constexpr double kShare = 0.95;  // of the grip that braking may use
+  constexpr double kLeast = 0.5;   // [m/s²]
+  const double across = speed * speed * curvature - a_y_, most = kShare * mu_ * kGravity;
+  return std::min(deceleration, std::max(std::sqrt(std::max(most * most - across * across, 0.0)), kLeast));
+}
+
+// The first violation while the vehicle brakes along the path until it stands.
+std::optional<ConstraintViolation> PlanCheck::Brake(const Footprint& at_end, const StopPath& path,
+                                                    Braking from, double deceleration) const {
+  constexpr double kStep = 0.1;      // [s]
+  constexpr double kResponse = 0.1;  // time until the brakes respond [s]
+  constexpr double kStands = 0.1;    // [m/s]
+  const double begin = from.time, grip = mu_ * kGravity;
+  double s = path.At(from.distance).s;
+  bool first = true;
+  while (from.speed > kStands) {
+    const double curvature = path.At(from.distance).curvature;
+    const double across = std::abs(from.speed * from.speed * curvature - a_y_);
+    const int step = static_cast<int>(std::lround(from.time / settings_.t_s));
+    if (across > grip + kGripTolerance && !first) {
+      return ConstraintViolation{.constraint = {.kind = ConstraintKind::kFriction, .index = 0, .step = step},
+                                 .amount = across - grip};
+    }
+    first = false;
+    const double wanted = -Brakes(from.speed, curvature, deceleration);
+    if (from.time >= begin + kResponse - 1e-9)
+      from.acceleration = std::max(wanted, from.acceleration - settings_.jerk * kStep);
+    const double next = std::max(from.speed + kStep * from.acceleration, 0.0);
+    from.distance += 0.5 * (from.speed + next) * kStep;
+    from.speed = next;
+    from.time += kStep;
+
+    const StopPathPoint point = path.At(from.distance);
+    State z = State::Zero();
+    z[kX] = point.p.x();
+    z[kY] = point.p.y();
+    z[kPsi] = point.direction - point.curvature * SideslipPerCurvature(settings_.vehicle, from.speed);
+    const bool stands = from.speed <= kStands;
+    if (const auto contact = Contact(stands ? at_end : settings_.footprint, z, point.s, from.time))
+      return contact;
+    s = point.s;
+    const double out = OffRoad(z, s);
+    if (out > off_road_) {
+      return ConstraintViolation{.constraint = {.kind = ConstraintKind::kRoad, .index = 0, .step = step},
+                                 .amount = out};
     }
   }
   return std::nullopt;

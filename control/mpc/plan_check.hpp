@@ -1,13 +1,19 @@
 // The last check of a plan before it is followed: its inputs are simulated with the nonlinear model, and the vehicle's
 // whole rectangle is compared with obstacles, road and friction, without margins: a failure here would be a real one.
+//
+// Behind a plan there must be a stop: after its first inputs, the vehicle brakes along the plan's path (stop_path.hpp) until
+// it stands, and touches nothing whatever the others do within the bounds of occupancy.hpp. As long as each plan that is
+// followed has one, there is always a way to a standstill without a fault of the vehicle's (docs/safety.md).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "control/mpc/constraint.hpp"
 #include "control/road/road_profile.hpp"
+#include "control/road/stop_path.hpp"
 #include "control/traffic/road_objects.hpp"
 #include "control/vehicle/discrete_model.hpp"
 #include "control/vehicle/disturbance.hpp"
@@ -20,8 +26,22 @@ namespace control {
 struct PlanCheckSettings {
   VehicleParameters vehicle;
   Footprint footprint;
-  double mu = 0.7;    // assumed friction coefficient
-  double t_s = 0.05;  // [s], at most 0.06
+  double mu = 0.7;                    // assumed friction coefficient
+  double t_s = 0.05;                  // [s], at most 0.06
+  double stop_deceleration = 3.0;     // [m/s²], > 0
+  double hardest_deceleration = 6.0;  // [m/s²], ≥ stop_deceleration
+  double jerk = 30.0;                 // [m/s³]
+};
+
+// After how many inputs of a plan the vehicle may begin to brake, and how hard it must then [m/s²].
+struct Stop {
+  int after = 0;
+  double deceleration = 0.0;
+};
+
+struct StopVerdict {
+  std::optional<Stop> stop;                      // none if no stop is clear
+  std::optional<ConstraintViolation> violation;  // then what stands in the way of the hardest
 };
 
 class PlanCheck {
@@ -39,11 +59,33 @@ class PlanCheck {
   // on along the road, or straight across it: contact with an obstacle (amount: roughly how far the rectangle reaches
   // into it [m]), a corner off the road [m], or more acceleration than friction allows [m/s²]. Road and friction count
   // only where the excess is more than 0.02 m or 0.3 m/s² above the initial one, which is not the plan's fault. Does not allocate.
-  [[nodiscard]] std::optional<ConstraintViolation> Validate(std::span<const Input> u) const;
+  [[nodiscard]] std::optional<ConstraintViolation> Validate(std::span<const Input> u);
+
+  // Finds the earliest and mildest stop behind the inputs that were validated last. Does not allocate.
+  [[nodiscard]] StopVerdict FindStop();
+  // Likewise for a vehicle that brakes at once along `path`; it accelerates by `acceleration` [m/s²] so far. The gaps to what it
+  // stops before may be smaller than behind a plan, lest noise take the last stop away.
+  [[nodiscard]] StopVerdict FindStop(const StopPath& path, double acceleration) const;
+  // The deceleration with which this stop begins now along `path`; without one, the hardest that the tyres can give [m/s²].
+  [[nodiscard]] double Deceleration(const StopPath& path, const std::optional<Stop>& stop) const;
+
+  void Reconfigure(double stop_deceleration);
+  [[nodiscard]] const Footprint& footprint() const { return settings_.footprint; }
 
  private:
+  struct Braking {
+    double distance = 0.0;      // along the path [m]
+    double speed = 0.0;         // [m/s]
+    double acceleration = 0.0;  // [m/s²]
+    double time = 0.0;          // from now [s]
+  };
   [[nodiscard]] double OffRoad(const State& z, double& s) const;
   [[nodiscard]] double BeyondGrip(const State& z, const Input& u) const;
+  [[nodiscard]] double Brakes(double speed, double curvature, double deceleration) const;
+  [[nodiscard]] std::optional<ConstraintViolation> Contact(const Footprint& footprint, const State& z,
+                                                           double s, double time) const;
+  [[nodiscard]] std::optional<ConstraintViolation> Brake(const Footprint& at_end, const StopPath& path,
+                                                         Braking from, double deceleration) const;
 
   PlanCheckSettings settings_;
   DiscreteModel model_;
@@ -52,8 +94,15 @@ class PlanCheck {
   State z_ = State::Zero();
   double s_ = 0.0;
   std::span<const Obstacle> obstacles_;
-  double a_y_ = 0.0;  // [m/s²]
+  Footprint reserved_;                              // that must be clear at the end of a stop behind a plan
+  std::array<bool, RoadObjects::kMost> touched_{};  // objects that the vehicle touches already
+  std::array<bool, RoadObjects::kMost> near_{};     // those in reserved_ already
+  double off_road_ = 0.0;  // largest distance beyond the road's edge that counts as none [m]
+  double a_y_ = 0.0;       // [m/s²]
   double mu_;
+  std::vector<State> predicted_;
+  std::vector<double> accelerations_;  // of the inputs that lead to them [m/s²]
+  StopPath path_;                      // along predicted_
 };
 
 }  // namespace control

@@ -23,6 +23,7 @@ TrafficSettings TrafficSettingsOf(const VehicleParameters& vehicle, const LpvAff
                           .obstacle_margin = settings.obstacle_margin,
                           .road_margin = settings.road_margin,
                           .stop_gap = settings.stop_gap,
+                          .t_s = settings.t_s,
                           .grip = Grip(settings),
                           .path = {}};
   traffic.path.max_curvature = std::tan(settings.u_max[kDelta]) / (vehicle.l_f + vehicle.l_r);

@@ -20,17 +20,27 @@ constexpr double kBeyondGrip = 6.0;    // cost of a lateral move per second and 
 constexpr double kSpeedAtEdge = 40.0;  // speed at which the usual margin to the road's edges is wanted [m/s]
 constexpr double kOtherSide = 1e3;     // where an object that must be passed on one side seems to end [m]
 
+// Distance at which the vehicle can just stop behind an object that brakes [m].
+double WayToStopBehind(double speed, double object_speed) {
+  constexpr double kDeceleration = 4.0;  // of the vehicle [m/s²]
+  return 0.5 * speed * speed / kDeceleration - 0.5 * object_speed * object_speed / StopLine::kHardest;
+}
+
 }  // namespace
 
 std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::span<const RoadObject> objects,
-                                              const SpeedPlan& speeds, std::size_t j, double until) {
+                                              const SpeedPlan& speeds, std::size_t j, double until,
+                                              double leaves) {
   const double s_0 = stations.At(j - 1), s_1 = stations.At(j);
   const double t_0 = speeds.t[j - 1], t_1 = std::max(speeds.t[j], until);
   std::size_t count = 0;
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const RoadObject& object = objects[k];
     const double ahead_0 = object.SAt(t_0) - s_0, ahead_1 = object.SAt(t_1) - s_1;
-    if (object.IsBeside(settings_.footprint, ahead_0, ahead_1)) beside_[count++] = k;
+    const bool near =
+        t_0 > leaves && object.MovesAhead() && ahead_1 > 0.0 &&
+        ahead_1 - object.half_length - settings_.footprint.front < WayToStopBehind(speeds.v[j], object.speed);
+    if (near || object.IsBeside(settings_.footprint, ahead_0, ahead_1)) beside_[count++] = k;
   }
   return {beside_.data(), count};
 }
@@ -49,8 +59,8 @@ RoadBounds Corridor::NarrowestAt(double s, double spacing) const {
 
 void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
                         std::span<const RoadObject> objects, const SpeedPlan& speeds, std::size_t j,
-                        double until, bool squeeze) {
-  const auto beside = Beside(stations, objects, speeds, j, until);
+                        double until, bool squeeze, double leaves) {
+  const auto beside = Beside(stations, objects, speeds, j, until, leaves);
   const double t_0 = speeds.t[j - 1], t_1 = std::max(speeds.t[j], until);
   // In a bend, the ends of the vehicle reach further out than its middle.
   const double end = std::max(settings_.footprint.front, settings_.footprint.rear);
@@ -126,7 +136,7 @@ void Corridor::Reach(std::size_t j, const Stations& stations, const RoadPosition
 
 void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
                     std::span<const RoadObject> objects, std::span<const Side> kept, const SpeedPlan& speeds,
-                    double time, bool squeeze, Way& way) {
+                    double time, bool squeeze, double leaves, Way& way) {
   RoadBounds widest = profile_->RoadAt(vehicle.s);
   for (std::size_t j = 1; j < kStations; ++j) {
     const RoadBounds road = profile_->RoadAt(stations.At(j));
@@ -141,9 +151,9 @@ void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
   std::size_t reached = 1;
   for (std::size_t j = 1; j < speeds.count; ++j) {
     const bool last = j + 1 == speeds.count;
-    FindGaps(stations, vehicle, objects, speeds, j, last && waits ? time : 0.0, squeeze);
+    FindGaps(stations, vehicle, objects, speeds, j, last && waits ? time : 0.0, squeeze, leaves);
     met_.fill(false);
-    for (const std::size_t k : Beside(stations, objects, speeds, j, 0.0)) {
+    for (const std::size_t k : Beside(stations, objects, speeds, j, 0.0, leaves)) {
       met_[k] = !seen[k];
       seen[k] = true;
     }
@@ -176,7 +186,7 @@ void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
     const Cell& cell = cells_[j][static_cast<std::size_t>(l)];
     way.lateral[j] = static_cast<double>(cell.lateral);
     way.gap[j] = gaps_[j].gaps()[static_cast<std::size_t>(cell.gap)];
-    for (const std::size_t k : Beside(stations, objects, speeds, j, 0.0)) {
+    for (const std::size_t k : Beside(stations, objects, speeds, j, 0.0, leaves)) {
       way.side[k] = way.lateral[j] > objects[k].LateralAt(0.5 * (speeds.t[j - 1] + speeds.t[j]))
                         ? Side::kLeft
                         : Side::kRight;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -45,17 +46,22 @@ class Corridor {
       : settings_(settings), profile_(&profile) {}
 
   // The best way through the stations that `speeds` reaches; if there is none, the one that leads farthest. `kept`: the
-  // previous side of each object. `waits`: the vehicle waits at the last station until `time` [s]. `squeeze`: the margins
-  // are the least ones.
+  // previous side of each object. `time`: until then, a vehicle that waits at the last station waits there [s]. `squeeze`: the
+  // margins are the least ones. `leaves`: the time from which the way must be beside, and not behind, an object that moves
+  // ahead where the vehicle could not stop behind it any more; infinite: it keeps its distance anyway [s].
   void Find(const Stations& stations, const RoadPosition& vehicle, std::span<const RoadObject> objects,
-            std::span<const Side> kept, const SpeedPlan& speeds, double time, bool squeeze, Way& way);
+            std::span<const Side> kept, const SpeedPlan& speeds, double time, bool squeeze, double leaves,
+            Way& way);
 
-  // The objects beside the vehicle between stations j − 1 and j, j ≥ 1, as indices; valid until the next call.
+  // The objects beside the vehicle between stations j − 1 and j, j ≥ 1, as indices; valid until the next call. From the time
+  // `leaves` on, those ahead of it that are too near to stop behind count, too.
   [[nodiscard]] std::span<const std::size_t> Beside(const Stations& stations,
                                                     std::span<const RoadObject> objects,
-                                                    const SpeedPlan& speeds, std::size_t j, double until);
+                                                    const SpeedPlan& speeds, std::size_t j, double until,
+                                                    double leaves = kNotAtAll);
 
  private:
+  static constexpr double kNotAtAll = std::numeric_limits<double>::infinity();
   static constexpr int kCells = 25;  // lateral positions at each station
   struct Cell {
     float cost = 0.0F;     // of the best way to here [s]; infinite: none
@@ -66,7 +72,7 @@ class Corridor {
 
   [[nodiscard]] RoadBounds NarrowestAt(double s, double spacing) const;
   void FindGaps(const Stations& stations, const RoadPosition& vehicle, std::span<const RoadObject> objects,
-                const SpeedPlan& speeds, std::size_t j, double until, bool squeeze);
+                const SpeedPlan& speeds, std::size_t j, double until, bool squeeze, double leaves);
   void Reach(std::size_t j, const Stations& stations, const RoadPosition& vehicle,
              std::span<const RoadObject> objects, std::span<const Side> kept, const SpeedPlan& speeds);
 

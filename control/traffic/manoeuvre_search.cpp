@@ -7,8 +7,9 @@
 namespace control {
 namespace {
 
-constexpr double kShortest = 40.0;    // least length of road that is planned for [m]
-constexpr double kSameTimes = 0.3;    // difference of arrival times that does not matter [s]
+constexpr double kShortest = 40.0;  // least length of road that is planned for [m]
+constexpr double kSameTimes = 0.3;  // difference of arrival times that does not matter [s]
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
 
 }  // namespace
@@ -46,7 +47,9 @@ void ManoeuvreSearch::Measure() {
   }
 }
 
-void ManoeuvreSearch::Go(std::span<const Side> kept, bool squeeze, Candidate& candidate) {
+void ManoeuvreSearch::Go(std::span<const Side> kept, bool squeeze, double decided, Candidate& candidate) {
+  constexpr double kTimeToLeave = 3.0, kAtLeast = 1.0;  // [s]
+  leaves_ = std::max(kTimeToLeave - decided, kAtLeast);
   candidate.stop_count = 0;
   Evaluate(kept, squeeze, candidate);
 }
@@ -83,11 +86,17 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
   const std::span stops(candidate.stop_lines.data(), candidate.stop_count);
   candidate.possible = candidate.late = false;
   candidate.blocker.reset();
-  candidate.speeds =
-      PlanSpeed(stations_, road_speed_, stops, vehicle_.speed, profile_->limits(), settings_.horizon);
+  const auto plan_speeds = [&](const StationValues& allowed) {
+    return PlanSpeed(stations_, allowed, stops, vehicle_.speed, profile_->limits(), settings_.horizon);
+  };
+  candidate.speeds = plan_speeds(road_speed_);
+  candidate.speed_limit = road_speed_;
+  candidate.path = {};
+  KeepAbleToStop(candidate);
+  candidate.speeds = plan_speeds(candidate.speed_limit);
   for (int round = 0; round < 2; ++round) {
     corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, settings_.horizon, squeeze,
-                   candidate.way);
+                   candidate.stop_count == 0 ? leaves_ : kNever, candidate.way);
     const bool blocked = candidate.way.reached < candidate.speeds.count;
     if (blocked) candidate.blocker = Blocker(candidate);
     if (!smoother_.Smooth(stations_, start_, candidate.way, candidate.speeds, curvature_, candidate.path)) {
@@ -96,8 +105,7 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
     LimitSpeed(candidate);
     if (blocked) return;
     const SpeedPlan before = candidate.speeds;
-    candidate.speeds = PlanSpeed(stations_, candidate.speed_limit, stops, vehicle_.speed, profile_->limits(),
-                                 settings_.horizon);
+    candidate.speeds = plan_speeds(candidate.speed_limit);
     double later = 0.0;
     for (std::size_t j = 0; j < std::min(before.count, candidate.speeds.count); ++j) {
       later = std::max(later, std::abs(candidate.speeds.t[j] - before.t[j]));
@@ -124,7 +132,40 @@ void ManoeuvreSearch::LimitSpeed(Candidate& candidate) const {
     if (j > 0 && j < candidate.way.reached) limit = std::min(limit, candidate.way.gap[j].speed);
     candidate.speed_limit[j] = limit;
   }
+  KeepAbleToStop(candidate);
   LimitInTime(candidate.speed_limit, stations_.spacing, profile_->limits().deceleration);
+}
+
+// The vehicle must be able to stop in case another does: behind an object that moves ahead, until it has had time to leave the
+// object's lane, and before one that crosses, as long as that may come to a stop on the path.
+void ManoeuvreSearch::KeepAbleToStop(Candidate& candidate) const {
+  constexpr double kApart = 0.3;  // gap to one that crosses that leaves no doubt [m]
+  const SpeedPlan& speeds = candidate.speeds;
+  for (const RoadObject& o : objects_.objects()) {
+    const bool ahead =
+        o.MovesAhead() && o.s > vehicle_.s && Covers(o, vehicle_.lateral, 0.0, RoadObject::kDrift, 0.0);
+    const bool crosses = o.crosses && o.Moves() && candidate.path.exists;
+    if (!ahead && !crosses) continue;
+    const double brakes = ahead ? o.speed * o.speed / (2.0 * StopLine::kHardest) : 0.0;
+    for (std::size_t j = 0; j < speeds.count; ++j) {
+      const double s = stations_.At(j), t = speeds.t[j];
+      const double room = o.SAt(t) + brakes - o.half_length - settings_.footprint.front - s;
+      if (room < -settings_.footprint.front || (ahead && t > leaves_)) break;
+      const double then = t + room / std::max(speeds.v[j], 1.0);
+      if (crosses && !Covers(o, candidate.path.At(o.SAt(t)).offset, t, then, kApart)) continue;
+      candidate.speed_limit[j] = std::min(
+          candidate.speed_limit[j], StoppingSpeed(room, StopLine::kHard * profile_->limits().deceleration));
+    }
+  }
+}
+
+// True if a vehicle with its centre at this lateral position is nearer than `apart` [m] to a place where the object is between
+// two times [s].
+bool ManoeuvreSearch::Covers(const RoadObject& o, double lateral, double from, double to,
+                             double apart) const {
+  const double a = o.LateralAt(from), b = o.LateralAt(to);
+  const double half = o.half_width + settings_.footprint.half_width + apart;
+  return lateral > std::min(a, b) - half && lateral < std::max(a, b) + half;
 }
 
 // What the vehicle touches already does not count: it can only drive on.
@@ -152,9 +193,11 @@ std::optional<std::size_t> ManoeuvreSearch::Touched(const Candidate& candidate) 
   return std::nullopt;
 }
 
-// In seconds: the time to the last station, lateral offsets and accelerations, and changed sides.
+// In seconds: the time to the last station, lateral offsets and accelerations, changed sides, and what the vehicle will lose
+// because it is slower than the road allows at the end.
 double ManoeuvreSearch::Cost(const Candidate& candidate) const {
   constexpr double kOffset = 0.02, kAcceleration = 0.05;  // per second and m², (m/s²)²
+  constexpr double kLasts = 5.0;                          // time for which a lower speed is taken to last [s]
   const SpeedPlan& speeds = candidate.speeds;
   double cost = candidate.way.changes;
   for (std::size_t j = 1; j < speeds.count; ++j) {
@@ -165,6 +208,7 @@ double ManoeuvreSearch::Cost(const Candidate& candidate) const {
   const std::size_t last = speeds.count - 1;
   const double left = stations_.length() - static_cast<double>(last) * stations_.spacing;
   const double usual = std::max(road_speed_[last], 1.0);
+  cost += kLasts * std::max(1.0 - speeds.v[last] / usual, 0.0);
   return cost + (last + 1 == kStations ? speeds.t[last] : settings_.horizon + left / usual);
 }
 
@@ -172,7 +216,8 @@ std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) 
   const std::size_t j = candidate.way.reached;
   std::optional<std::size_t> blocker;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), candidate.speeds, j, 0.0)) {
+  for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), candidate.speeds, j, 0.0,
+                                              candidate.stop_count == 0 ? leaves_ : kNever)) {
     const RoadObject& object = objects_.objects()[k];
     const double near = object.s - object.half_length;
     if (near < vehicle_.s - settings_.footprint.rear) continue;  // it comes from behind

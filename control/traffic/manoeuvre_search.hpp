@@ -44,7 +44,9 @@ class ManoeuvreSearch {
   void Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle, const LateralPoint& start);
 
   // Searches past the objects. `kept`: the previous side of each object. `squeeze`: with the least margins.
-  void Go(std::span<const Side> kept, bool squeeze, Candidate& candidate);
+  // `decided`: for how long this has been decided [s]; the longer, the sooner must the vehicle leave the lane of an object
+  // that it overtakes, lest it put that off for ever.
+  void Go(std::span<const Side> kept, bool squeeze, double decided, Candidate& candidate);
   // Searches behind `object`, or without one behind the station at which `candidate.way` ends, and behind what else turns
   // out to block the way.
   void StayBehind(std::optional<std::size_t> object, std::span<const Side> kept, Candidate& candidate);
@@ -64,6 +66,8 @@ class ManoeuvreSearch {
   // The object that the path touches at the times of the speed plan, if there is one.
   [[nodiscard]] std::optional<std::size_t> Touched(const Candidate& candidate);
   void LimitSpeed(Candidate& candidate) const;
+  void KeepAbleToStop(Candidate& candidate) const;
+  [[nodiscard]] bool Covers(const RoadObject& o, double lateral, double from, double to, double apart) const;
   [[nodiscard]] double Cost(const Candidate& candidate) const;
 
   TrafficSettings settings_;
@@ -73,6 +77,7 @@ class ManoeuvreSearch {
   PathSmoother smoother_;
   RoadPosition vehicle_;
   LateralPoint start_;
+  double leaves_ = 0.0;  // time at which the vehicle leaves the lane of an object that it overtakes [s]
   Stations stations_;
   StationValues road_speed_{}, curvature_{};
 };

@@ -14,6 +14,8 @@ namespace {
 constexpr double kSpeedTolerance = 0.5;
 // Multiple of the comfortable deceleration at which the vehicle brakes to catch up with a profile.
 constexpr double kHarder = 1.5;
+// Time in which it makes up for a limit that it exceeds [s].
+constexpr double kCatchUp = 0.5;
 // Least length of the path per length of the road, on the inside of a bend.
 constexpr double kLeastStretch = 0.2;
 
@@ -26,10 +28,12 @@ double ProgressReference::SpeedAt(double s, double t, const Manoeuvre& manoeuvre
 
 // The vehicle brakes a little harder than comfortable to catch up with a profile, and as hard as necessary before a
 // near stop line.
-double ProgressReference::Deceleration(double s, double upsilon, std::span<const StopLine> stops) const {
+double ProgressReference::Deceleration(double s, double upsilon, const Manoeuvre& manoeuvre) const {
   const SpeedLimits& limits = profile_->limits();
-  double hardest = kHarder * limits.deceleration;
-  for (const StopLine& stop : stops) {
+  // A limit that has just come, because of one who cuts in, say, leaves less time.
+  const double excess = std::max(upsilon - manoeuvre.SpeedLimitAt(s), 0.0);
+  double hardest = std::min(kHarder * limits.deceleration + excess / kCatchUp, limits.emergency);
+  for (const StopLine& stop : manoeuvre.stops()) {
     const double closing = std::max(upsilon - stop.speed, 0.0);
     const double needed =
         closing * closing / (2.0 * std::max(stop.s + stop.spare - s, RoadProfile::kStopWithin));
@@ -46,7 +50,7 @@ void ProgressReference::Fill(double s_0, double upsilon, const Manoeuvre& manoeu
   const double slip = SideslipPerAcceleration(vehicle) * disturbance.a_y;
   const double steering = -UndersteerGradient(vehicle) * disturbance.a_y - disturbance.delta_0;
   const double up = profile_->limits().acceleration * t_s_;
-  const double down = Deceleration(s_0, upsilon, manoeuvre.stops()) * t_s_;
+  const double down = Deceleration(s_0, upsilon, manoeuvre) * t_s_;
 
   double place = s_0;
   double speed = std::clamp(SpeedAt(place, 0.0, manoeuvre), std::max(upsilon - kSpeedTolerance, 0.0),

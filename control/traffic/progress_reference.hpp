@@ -31,7 +31,7 @@ class ProgressReference {
             std::span<double> s, const Disturbance& disturbance = {}) const;
 
  private:
-  [[nodiscard]] double Deceleration(double s, double upsilon, std::span<const StopLine> stops) const;
+  [[nodiscard]] double Deceleration(double s, double upsilon, const Manoeuvre& manoeuvre) const;
   [[nodiscard]] double SpeedAt(double s, double t, const Manoeuvre& manoeuvre) const;
 
   VehicleParameters vehicle_;

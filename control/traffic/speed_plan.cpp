@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kFallBack =
     0.2;  // speed reduction below that of a moving stop line, per metre beyond it [1/s]
-constexpr double kHard =
-    2.0;  // multiple of the comfortable deceleration at which it stops behind one that brakes
 constexpr double kStands = 0.05;  // [m/s]
 
 }  // namespace
@@ -20,9 +18,9 @@ double SpeedBefore(std::span<const StopLine> stops, double s, double t, double d
   for (const StopLine& stop : stops) {
     const double distance = stop.s + stop.speed * t - s;
     const double over = distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, deceleration);
-    const double in_time = stop.spare > 0.0
-                               ? StoppingSpeed(stop.RoomToStop(s) + stop.speed * t, kHard * deceleration)
-                               : std::numeric_limits<double>::infinity();
+    const double in_time =
+        stop.spare > 0.0 ? StoppingSpeed(stop.RoomToStop(s) + stop.speed * t, StopLine::kHard * deceleration)
+                         : std::numeric_limits<double>::infinity();
     speed = std::min({speed, std::max(stop.speed + over, 0.0), in_time});
   }
   return speed;

@@ -42,7 +42,8 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
   for (std::size_t k = 0; k < objects.size(); ++k) {
     kept_[k] = Kept(obstacles[objects[k].index]);
   }
-  search_.Go(kept_, false, go_);
+  const double decided = stays_behind_ ? 0.0 : settings_.t_s * open_cycles_;
+  search_.Go(kept_, false, decided, go_);
 
   // The object behind which the vehicle could stay instead.
   std::optional<std::size_t> ahead = go_.blocker;
@@ -78,7 +79,7 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     }
     Take(behind_, decision, ahead, obstacles);
   } else {
-    search_.Go(kept_, true, go_);
+    search_.Go(kept_, true, decided, go_);
     Take(go_.possible ? go_ : behind_, Decision::kSqueeze, ahead, obstacles);
     stay = !go_.possible;
   }

@@ -59,7 +59,7 @@ std::array<bus::Message, std::variant_size_v<bus::Message>> RandomMessages(Value
           bus::SchedulingHealth{v.Real(), v.Byte(256), v.Real()},
           bus::HorizonHeader{v.Byte(128), v.Byte(16), v.Real()},
           bus::HorizonPoint{v.Byte(128), v.Real(), v.Real()},
-          bus::ControllerDiagnostics{v.One(bus::ModeCause::kPlanRejected), v.One(bus::Mode::kFault), v.Real(),
+          bus::ControllerDiagnostics{v.One(bus::ModeCause::kStopDue), v.One(bus::Mode::kFault), v.Real(),
                                      v.Byte(7), v.Byte(10), v.Real(), v.Byte(256)},
           bus::ConstraintReport{v.One(bus::ConstraintVerdict::kRejected), v.One(bus::ConstraintName::kTrust),
                                 v.Byte(64), v.Byte(128), v.Real()},

@@ -51,7 +51,7 @@ const std::vector<Message>& Samples() {
       SchedulingHealth{.scheduling_error = 1.5, .active_rows = 600, .largest_slack = 0.125},
       HorizonHeader{.points = 9, .state_counter = 7, .step = 0.05},
       HorizonPoint{.index = 8, .X = 100.125, .Y = -2000.0},
-      ControllerDiagnostics{.cause = ModeCause::kPlanRejected,
+      ControllerDiagnostics{.cause = ModeCause::kStopDue,
                             .previous_mode = Mode::kDegraded,
                             .countdown = 0.35,
                             .faulty_message = 6,

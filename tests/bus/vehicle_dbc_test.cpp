@@ -88,7 +88,7 @@ TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   const dbc::Signal* cause = database_.Find("ControllerDiagnostics")->Find("Cause");
   EXPECT_EQ(cause->values.at(static_cast<int>(ModeCause::kReleased)), "RequestWithdrawn");
   EXPECT_EQ(cause->values.at(static_cast<int>(ModeCause::kSilent)), "Silent");
-  EXPECT_EQ(cause->max, static_cast<double>(ModeCause::kPlanRejected));
+  EXPECT_EQ(cause->max, static_cast<double>(ModeCause::kStopDue));
   const dbc::Signal* object_class = database_.Find("ObstacleObject")->Find("Class");
   EXPECT_EQ(object_class->values.at(static_cast<int>(ObstacleClass::kCycle)), "Cycle");
   EXPECT_EQ(object_class->max, static_cast<double>(ObstacleClass::kPedestrian));

@@ -4,8 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "tests/loop/fake_controller.hpp"
-
 namespace loop {
 namespace {
 
@@ -13,7 +11,6 @@ using control::Input;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kMade = 100;  // step of the plan
-constexpr double kOffset = 0.1;      // distance by which the plan ends left of the route [m]
 
 class CommandSourceTest : public testing::Test {
  protected:
@@ -25,24 +22,16 @@ class CommandSourceTest : public testing::Test {
     state_.feedback = {0.3, 1.5};
   }
   safety::LimitResult Command(bus::Mode mode, std::int64_t step, const Input& applied) const {
-    return source_.Command(mode, step, plan_, motion_, state_, applied);
+    return source_.Command(mode, step, plan_, {0.02, -3.0}, state_, applied);
   }
   // The input of a command; it is NaN, and equal to nothing, if there is no command.
   static Input Of(const safety::LimitResult& result) {
     return result.command ? result.command->u() : Input(kNaN, kNaN);
   }
-  // The steering of a stop without a plan, for a vehicle `left` [m] beside the route that heads along it.
-  double StopSteering(double left) {
-    motion_.p.y() = left;
-    return Of(Command(bus::Mode::kSafeStop, kMade + 4, {0.0, -3.0}))[control::kDelta];
-  }
-
-  control::TimeReference reference_{StraightRoute(), 0.05};
   safety::CommandLimits limits_{.max_age = 2};
-  CommandSource source_{limits_, control::PathStop({}, reference_), 3.0};
+  CommandSource source_{limits_};
   ActivePlan plan_{4};
   VehicleState state_;
-  control::RouteMotion motion_{.p = {20.0, 0.0}, .speed = 10.0, .nearest = 40};
 };
 
 TEST_F(CommandSourceTest, VehicleObeysTheMeasuredInputsUntilCommandsAreEnabledThenTheLastCommand) {
@@ -80,25 +69,10 @@ TEST_F(CommandSourceTest, DrivingAndStoppingChangeTheAppliedInputsNoFasterThanTh
   EXPECT_NEAR(Of(stopping)[control::kAcceleration], 1.0 - limits_.max_acceleration_step, 1e-12);
 }
 
-TEST_F(CommandSourceTest, StopBrakesAtItsDecelerationWithTheSteeringOfThePlanHoweverOldThatIs) {
-  for (int i = 0; i < 4; ++i) {
-    const Input u = Of(Command(bus::Mode::kSafeStop, kMade + i, {0.0, -2.5}));
-    EXPECT_EQ(u, Input(0.01 * (i + 1), -3.0)) << i;
+TEST_F(CommandSourceTest, StopSendsItsInputHoweverOldThePlanIs) {
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(Of(Command(bus::Mode::kSafeStop, kMade + i, {0.0, -2.5})), Input(0.02, -3.0)) << i;
   }
-  source_.Reconfigure(2.0);
-  EXPECT_EQ(Of(Command(bus::Mode::kSafeStop, kMade, {0.0, -2.5})), Input(0.01, -2.0));
-}
-
-TEST_F(CommandSourceTest, StopWithoutAPlanSteersToThePathOnWhichThePlanEnded) {
-  EXPECT_NEAR(StopSteering(0.0), 0.0, 1e-12);  // Before any plan, the path is the route itself.
-  std::vector<control::State> planned(5, control::State::Zero());
-  planned.back()[control::kX] = 26.0;
-  planned.back()[control::kY] = kOffset;
-  source_.PlanStop(planned, motion_);
-  EXPECT_NEAR(StopSteering(kOffset), 0.0, 1e-12);
-  const double right_of_it = StopSteering(0.0);
-  EXPECT_GT(right_of_it, 0.001);
-  EXPECT_NEAR(StopSteering(2.0 * kOffset), -right_of_it, 1e-12);
 }
 
 TEST_F(CommandSourceTest, DisabledCommandsAreTheMeasuredInputsWithinTheRange) {

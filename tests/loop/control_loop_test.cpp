@@ -67,7 +67,7 @@ TEST_F(ControlLoopTest, HorizonFramesCarryThePlan) {
     EXPECT_NEAR(header.step, 0.05, 1e-9);
     const auto point = Decode<bus::HorizonPoint>(frames[kWithoutHorizon + 1 + 2]);
     EXPECT_EQ(point.index, 2);
-    EXPECT_NEAR(point.X, 12.5, 1e-3);
+    EXPECT_NEAR(point.X, controller_.z[control::kX] + 2 * 0.5, 1e-3);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -34,7 +35,13 @@ class FakeController : public control::TrackingController {
     plan_.status = status;
     plan_.iterations = 7;
     if (poison_input) plan_.u[3][control::kDelta] = std::numeric_limits<double>::quiet_NaN();
-    plan_.z[2][control::kX] = poison ? std::numeric_limits<double>::quiet_NaN() : 12.5;
+    // Straight on from the state, whatever the inputs are.
+    for (std::size_t i = 0; i < plan_.z.size(); ++i) {
+      plan_.z[i] = z;
+      plan_.z[i].head<2>() += 0.05 * static_cast<double>(i) * z[control::kUpsilon] *
+                              Eigen::Vector2d(std::cos(z[control::kPsi]), std::sin(z[control::kPsi]));
+    }
+    if (poison) plan_.z[2][control::kX] = std::numeric_limits<double>::quiet_NaN();
     return plan_;
   }
   void Reset() override { ++resets; }

@@ -65,7 +65,7 @@ class PlannerTest : public testing::Test {
   control::PlanCheckSettings check_settings_{.vehicle = {}, .footprint = {.front = 1.95, .half_width = 0.9}};
   control::PlanCheck check_{check_settings_, profile_};
   PlannerSettings settings_{.period = 50ms, .deadline = 50ms, .command_delay = 100ms, .vehicle = {}};
-  Planner planner_{settings_, controller_, [this] { return clock_; }, &check_};
+  Planner planner_{settings_, controller_, profile_, [this] { return clock_; }, &check_};
   Snapshot known_;
 };
 
@@ -91,7 +91,7 @@ TEST_F(PlannerTest, DisturbanceThatTheStatesShowIsToldToTheControllerAndActsDuri
   for (const bool offset_free : {true, false}) {
     settings_.offset_free = offset_free;
     Planner planner(
-        settings_, controller_, [this] { return clock_; }, &check_);
+        settings_, controller_, profile_, [this] { return clock_; }, &check_);
     known_.state.z << 10.0, 0.0, 10.0, 0.0, 0.0, 0.0;
     for (int i = 0; i < 60; ++i) {
       ++known_.step;

@@ -29,9 +29,9 @@ TEST(Fault, AnEventHasNoCodeAndEveryFaultHasOne) {
 }
 
 TEST(Fault, OnlyWhatCannotBeDoneWithoutIsHard) {
-  const std::set<Cause> hard{Cause::kBusDown,      Cause::kStateStale,    Cause::kStateInvalid,
-                             Cause::kRouteEnd,     Cause::kPlanExhausted, Cause::kSilent,
-                             Cause::kInternalError};
+  const std::set<Cause> hard{Cause::kBusDown,       Cause::kStateStale,    Cause::kStateInvalid,
+                             Cause::kRouteEnd,      Cause::kPlanExhausted, Cause::kSilent,
+                             Cause::kInternalError, Cause::kStopDue};
   for (int i = 0; i < kCauses; ++i) {
     const auto cause = static_cast<Cause>(i);
     EXPECT_EQ(IsHard(cause), hard.contains(cause)) << Name(cause);
@@ -40,13 +40,14 @@ TEST(Fault, OnlyWhatCannotBeDoneWithoutIsHard) {
 
 TEST(Fault, ACauseAndItsCodeReadAlike) {
   // Causes that share their code with others.
-  const std::set<Cause> other{Cause::kSilent, Cause::kSolverFailed};
+  const std::set<Cause> other{Cause::kSilent, Cause::kSolverFailed, Cause::kStopDue};
   for (int i = 0; i < kCauses; ++i) {
     const auto cause = static_cast<Cause>(i);
     if (RowOf(cause).severity == Severity::kEvent || other.contains(cause)) continue;
     EXPECT_EQ(Name(cause), bus::Name(FaultOf(cause)));
   }
   EXPECT_EQ(FaultOf(Cause::kSilent), bus::FaultCode::kInternalError);
+  EXPECT_EQ(FaultOf(Cause::kStopDue), bus::FaultCode::kPlanRejected);
   EXPECT_EQ(FaultOf(Cause::kSolverFailed), bus::FaultCode::kSolverNumericalFailure);
 }
 

@@ -101,6 +101,8 @@ const std::vector<Row> kTable = {
      kComesUp, kStaysInStandby, Degrades(Cause::kDeadlineMissed), kStaysInDegraded, kStaysInSafeStop, kStaysInFault},
     {"plan rejected", [](ModeInputs& i) { i.plan_fault = Cause::kPlanRejected; },
      kComesUp, kStaysInStandby, Degrades(Cause::kPlanRejected), kStaysInDegraded, kStaysInSafeStop, kStaysInFault},
+    {"stop due", [](ModeInputs& i) { i.stop_due = true; },
+     kComesUp, kStaysInStandby, Stops(Cause::kStopDue), Stops(Cause::kStopDue), kStaysInSafeStop, kStaysInFault},
     {"plan exhausted", [](ModeInputs& i) { i.plan_fault = Cause::kSolverFailed; i.plan_usable = false; },
      kComesUp, kStaysInStandby, Stops(Cause::kPlanExhausted), Stops(Cause::kPlanExhausted), kStaysInSafeStop,
      kStaysInFault},

@@ -11,6 +11,8 @@
 namespace control {
 namespace {
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 constexpr double kHalfWidth = 0.9;
 constexpr double kSpeed = 10.0;
 constexpr double kPlace = 50.0;
@@ -51,7 +53,7 @@ class CorridorTest : public ::testing::Test {
     kept.resize(RoadObjects::kMost, Side::kNone);
     Way way;
     corridor_.Find(kStationsAhead, {.s = kPlace, .lateral = lateral, .speed = speed}, objects, kept,
-                   Steady(speed), kTime, squeeze, way);
+                   Steady(speed), kTime, squeeze, kNever, way);
     return way;
   }
   Side SideOf(const RoadObject& object, double lateral = 0.0) { return Find({object}, lateral).side[0]; }
@@ -187,7 +189,8 @@ TEST_F(CorridorTest, RoadThatNarrowsMovesTheWayAside) {
   Corridor corridor(kSettings, narrowing);
   const std::array<Side, RoadObjects::kMost> kept{};
   Way way;
-  corridor.Find(kStationsAhead, {.s = kPlace, .speed = kSpeed}, {}, kept, Steady(kSpeed), kTime, false, way);
+  corridor.Find(kStationsAhead, {.s = kPlace, .speed = kSpeed}, {}, kept, Steady(kSpeed), kTime, false,
+                kNever, way);
   ASSERT_EQ(way.reached, kStations);
   EXPECT_NEAR(way.lateral[4], 0.0, 1e-6);
   for (std::size_t j = 21; j < kStations; ++j) EXPECT_GE(way.lateral[j], kHalfWidth + 0.4 - 1e-6);
