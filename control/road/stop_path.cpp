@@ -14,7 +14,8 @@ namespace {
 constexpr double kSpacing = 0.25;      // least distance between two knots [m]
 constexpr double kLateral = 2.0;       // lateral acceleration beyond the plan's end [m/s²]
 constexpr double kSharpest = 4.0;      // the same where the road's edge is near
-constexpr double kLeastDecay = 2.0;    // [m]
+constexpr double kLeastDecay = 2.0;    // ℓ at least [m]
+constexpr double kDecayTime = 0.6;     // ℓ per speed, at least [s]
 constexpr double kSteepest = 1.0;      // |d'|
 constexpr double kLeastStretch = 0.2;  // beyond the centre of a bend
 
@@ -32,6 +33,8 @@ StopPath::StopPath(const VehicleParameters& vehicle, const RoadProfile& profile,
 }
 
 void StopPath::Follow(std::span<const State> plan, double s) {
+  constexpr std::size_t kTail = 5;  // last steps of a plan, in which nothing holds it to its way
+  plan = plan.first(plan.size() - std::min(plan.size() / 4, kTail));
   knots_.clear();
   for (std::size_t i = 0; i < plan.size() && knots_.size() < knots_.capacity(); ++i) {
     const State& z = plan[i];
@@ -56,7 +59,7 @@ void StopPath::Follow(std::span<const State> plan, double s) {
   const RoadBounds edges = profile_->RoadAt(end.s);
   const double room = slope_ > 0.0 ? edges.left - half_width_ - offset_ : offset_ - half_width_ - edges.right;
   const double sharpest = upsilon * upsilon * std::abs(slope_) / kSharpest;
-  decay_ = upsilon * upsilon * std::abs(slope_) / kLateral;
+  decay_ = std::max(upsilon * upsilon * std::abs(slope_) / kLateral, kDecayTime * upsilon);
   if (decay_ * std::abs(slope_) > room) decay_ = std::max(room / std::abs(slope_), sharpest);
   decay_ = std::max(decay_, kLeastDecay);
 }
@@ -117,11 +120,14 @@ double StopPath::Steering(const RouteMotion& motion) const {
   constexpr double kTime = 0.6, kShortest = 3.0;  // ℓ_s = max(kTime υ, kShortest) [s, m]
   constexpr double kMost = 0.3;                   // change of direction that is aimed at [rad]
   const double length = std::max(kTime * motion.speed, kShortest);
-  const StopPathPoint path = At(DistanceOf(motion.p));
+  constexpr double kPreview = 0.1;  // by which the steering precedes the bend [s]
+  const double distance = DistanceOf(motion.p);
+  const StopPathPoint path = At(distance);
   const double e = LeftOf(path.direction).dot(motion.p - path.p);
   const double turn = WrapAngle(motion.travel_direction - path.direction);
   const double back = std::clamp(e / length, -kMost, kMost);
-  const double curvature = path.curvature - (2.0 * turn + back) / length;
+  const double ahead = At(distance + kPreview * motion.speed).curvature;
+  const double curvature = ahead - (2.0 * turn + back) / length;
   return curvature * SteeringPerCurvature(vehicle_, motion.speed);
 }
 

@@ -7,7 +7,7 @@
 //
 // A vehicle beside the path is steered back by feedforward and feedback in arc length, critically damped:
 //
-//   κ = κ_path − 2 Δχ/ℓ_s − e/ℓ_s²      e: offset from the path, Δχ: direction of travel relative to it
+//   κ = κ_path − 2 Δχ/ℓ_s − e/ℓ_s²      e: offset from the path, Δχ: direction of travel relative to it; κ_path a little ahead
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class StopPath {
   // vehicle can turn that sharply. `profile` must outlive the path.
   StopPath(const VehicleParameters& vehicle, const RoadProfile& profile, int horizon, double half_width);
 
-  // Lays the path along these N + 1 ≥ 1 states, the first of which is beside the road's arc length s [m], as found by
+  // Lays the path along these N + 1 ≥ 1 states, but for the last few, the first of which is beside the road's arc length s [m], as found by
   // local search. Does not allocate.
   void Follow(std::span<const State> plan, double s);
 
