@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "control/mpc/timed_controller.hpp"
@@ -32,6 +33,7 @@ class FakeController : public control::TrackingController {
     reference_size = input.reference.size();
     plan_.status = status;
     plan_.iterations = 7;
+    plan_.manoeuvre = manoeuvre;
     if (poison_input) plan_.u[3][control::kDelta] = std::numeric_limits<double>::quiet_NaN();
     plan_.z[2][control::kX] = poison ? std::numeric_limits<double>::quiet_NaN() : 12.5;
     return plan_;
@@ -39,6 +41,7 @@ class FakeController : public control::TrackingController {
   void Reset() override { ++resets; }
 
   control::SolverStatus status = control::SolverStatus::kSolved;
+  std::optional<control::ManoeuvreStatus> manoeuvre;
   bool poison = false;
   bool poison_input = false;  // puts a NaN into the last input
   int steps = 0;

@@ -85,6 +85,7 @@ TEST_F(NarrowRoad, PedestrianWhoCrossesGoesFirst) {
   person.object_class = ObstacleClass::kPedestrian;
   const Manoeuvre& manoeuvre = Plan({person});
   EXPECT_EQ(manoeuvre.decision, Decision::kYield);
+  EXPECT_EQ(manoeuvre.reason, Reason::kCrossingFirst);
   EXPECT_EQ(manoeuvre.object, 1);
   ASSERT_FALSE(manoeuvre.stops().empty());
   EXPECT_LE(manoeuvre.stops()[0].s, person.X - 0.3 - 2.0 - kSettings.stop_gap + 1e-6);
@@ -94,6 +95,7 @@ TEST_F(TwoLanes, SlowVehicleIsOvertakenUnlessSomebodyComesTowardsIt) {
   EXPECT_EQ(SideOf(Car(25.0, 0.0, 5.0)), Side::kLeft);
   const Manoeuvre& manoeuvre = PlanAnew({Car(25.0, 0.0, 5.0), Car(90.0, 3.5, -12.0)});
   EXPECT_EQ(manoeuvre.decision, Decision::kFollow);
+  EXPECT_EQ(manoeuvre.reason, Reason::kOncomingFirst);
   EXPECT_EQ(manoeuvre.object, 1);
 }
 
