@@ -16,25 +16,41 @@ function sampleAt({series, t_s}, t) {
 
 const hasPose = ({series}, k) => series.X[k] != null && series.Y[k] != null && series.psi[k] != null;
 
-// The obstacle moved to its position at time `t`.
-const obstacleAt = (obstacle, t) =>
-  ({...obstacle, X: obstacle.X + obstacle.velocity_X * t, Y: obstacle.Y + obstacle.velocity_Y * t});
+// The index of the last number of the rising `numbers` that is at most `value`; 0 if all are greater.
+function lastUpTo(numbers, value) {
+  let low = 0;
+  let high = numbers.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (numbers[middle] <= value) low = middle;
+    else high = middle;
+  }
+  return low;
+}
 
-// The obstacle moved to its position at sample `k` of the drive, or at the start if `k` is null.
-const placedAt = (obstacle, {series}, k) => obstacleAt(obstacle, k === null ? 0 : series.t[k]);
+const isThere = ({from, to}, k) => k >= from && k <= to;
 
-// The sample at which the drive is nearest to the obstacle's centre; null if it has no pose at all.
-function closestSample(drive, obstacle) {
+// What identifies an obstacle among those of several drives.
+const obstacleKey = ({id, shape, r_x, r_y, places}) => JSON.stringify([id, shape, r_x, r_y, places.X[0], places.Y[0]]);
+
+// The obstacle with its place at sample `k`, or with its first one if `k` is null.
+function placedAt({shape, r_x, r_y, margin, places}, k) {
+  const i = k === null ? 0 : lastUpTo(places.k, k);
+  return {shape, r_x, r_y, margin, X: places.X[i], Y: places.Y[i], heading: places.heading[i]};
+}
+
+// The sample at which the drive is nearest to the obstacle's centre, with the distance; null if it never saw it.
+function closest(drive, obstacle) {
   let best = null;
-  let least = Infinity;
-  drive.series.t.forEach((t, k) => {
-    if (!hasPose(drive, k)) return;
-    const {X, Y} = obstacleAt(obstacle, t);
+  for (let k = obstacle.from; k <= obstacle.to; ++k) {
+    if (!hasPose(drive, k)) continue;
+    const {X, Y} = placedAt(obstacle, k);
     const distance = Math.hypot(drive.series.X[k] - X, drive.series.Y[k] - Y);
-    if (distance < least) [best, least] = [k, distance];
-  });
+    if (best === null || distance < best.distance) best = {k, distance};
+  }
   return best;
 }
+const closestSample = (drive, obstacle) => closest(drive, obstacle)?.k ?? null;
 
 // The open-loop prediction of step `k` in the plane; null if the report contains none.
 function planOf({plans, series}, k) {
@@ -55,12 +71,15 @@ function drawObstacle(pen, obstacle) {
   pen.obstacle(obstacle, obstacle.margin, {color: color("obstacle-edge"), width: 1, dash: [4, 3]});
 }
 
-// Draws the obstacles of several drives at sample `sample(drive, obstacle)`; obstacles that coincide are drawn once.
+// Draws the obstacles of several drives at sample `sample(drive, obstacle)`, if they are there then; those that coincide
+// are drawn once.
 function drawObstacles(pen, drives, sample) {
   const drawn = new Set();
   for (const drive of drives) {
     for (const obstacle of drive.obstacles) {
-      const placed = placedAt(obstacle, drive, sample(drive, obstacle));
+      const k = sample(drive, obstacle);
+      if (k !== null && !isThere(obstacle, k)) continue;
+      const placed = placedAt(obstacle, k);
       const key = JSON.stringify(placed);
       if (!drawn.has(key)) drawObstacle(pen, placed);
       drawn.add(key);
@@ -73,7 +92,7 @@ const roadsOf = (report, drives) => [...new Set(drives.map(drive => drive.road))
 // Two opposite corners of a square around the obstacle and its margin, where `drive` is nearest, as a line for
 // boxAbout().
 function extentOf(obstacle, drive) {
-  const {X, Y, shape, r_x, r_y, margin} = placedAt(obstacle, drive, closestSample(drive, obstacle));
+  const {X, Y, shape, r_x, r_y, margin} = placedAt(obstacle, closestSample(drive, obstacle));
   const radius = (shape === "box" ? Math.hypot(r_x, r_y) : Math.max(r_x, r_y)) + margin;
   return {X: [X - radius, X + radius], Y: [Y - radius, Y + radius]};
 }
