@@ -6,6 +6,7 @@
 
 #include "control/traffic/speed_plan.hpp"
 #include "gtest/gtest.h"
+#include "tests/control/narrowing.hpp"
 #include "tests/control/random.hpp"
 #include "tests/control/traffic/planned_traffic.hpp"
 
@@ -65,6 +66,19 @@ TEST_F(TrafficPlannerTest, WhereNoGapIsWideEnoughItWaitsBeforeTheObstacle) {
   ASSERT_EQ(manoeuvre.stops().size(), 1u);
   EXPECT_EQ(manoeuvre.stops()[0].speed, 0.0);
   EXPECT_NEAR(manoeuvre.stops()[0].s, kPlace + 40.0 - 2.1 - 2.0 - kSettings.stop_gap, 1e-6);
+}
+
+class NarrowingRoad : public testing::PlannedTraffic {
+ protected:
+  NarrowingRoad() : PlannedTraffic(testing::NarrowingOnTheRight(kPlace + 60.0, kPlace + 80.0, 2.5)) {}
+};
+
+TEST_F(NarrowingRoad, WhereTheRoadItselfIsTooNarrowItWaitsForNothing) {
+  const Manoeuvre& manoeuvre = Plan({});
+  EXPECT_EQ(manoeuvre.decision, Decision::kWait);
+  EXPECT_EQ(manoeuvre.reason, Reason::kRoadTooNarrow);
+  EXPECT_EQ(manoeuvre.object, -1);
+  ASSERT_FALSE(manoeuvre.stops().empty());
 }
 
 TEST_F(TrafficPlannerTest, ObstaclesSideBySideArePassedInTheMiddle) {
