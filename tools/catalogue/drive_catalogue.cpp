@@ -43,7 +43,8 @@ std::vector<std::string> NamesIn(const std::filesystem::path& folder, const std:
 // What a child process hands to its parent.
 std::string DriveOne(const std::filesystem::path& file, bool shown) {
   const sim::Scenario scenario = sim::LoadScenario(file);
-  const loop::Config config = LoadConfigFor(scenario, file, {});
+  loop::Config config = LoadConfigFor(scenario, file, {});
+  config.loop.send_horizon = config.loop.send_horizon || shown;  // the page shows plans
   const config::RouteFile route = config::LoadRoute(config.route);
   std::optional<bus::VehicleBus> bus;
   std::optional<DriveRecorder> recorder;

@@ -176,8 +176,8 @@ function mountCourse(frame, road, drive, own, {sync, span, moved}) {
           const k = sampleAt(drive, time);
           const plan = k === null ? null : planOf(drive, k);
           if (!plan) return;
-          drawPlan(pen, {X: plan.X.map((x, i) => series.t[k] + i * drive.t_s),
-                         Y: arcLengths(road.reference, plan, series.s[k])}, color(own), color("paper"));
+          drawPlan(pen, {X: plan.X.map((x, i) => series.t[plan.step] + i * drive.t_s),
+                         Y: arcLengths(road.reference, plan, series.s[plan.step])}, color(own), color("paper"));
         });
       }],
       setCursor: [shown => {

@@ -52,11 +52,14 @@ function closest(drive, obstacle) {
 }
 const closestSample = (drive, obstacle) => closest(drive, obstacle)?.k ?? null;
 
-// The open-loop prediction of step `k` in the plane; null if the report contains none.
+// The open-loop prediction of step `k` in the plane, or if there is none that of the last step before it, at most half a
+// second ago: {step, X, Y}; null if the report contains none.
 function planOf({plans, series}, k) {
-  const i = plans ? plans.k.indexOf(k) : -1;
-  if (i < 0 || series.X[k] == null || series.Y[k] == null) return null;
-  return {X: plans.dX[i].map(dX => series.X[k] + dX), Y: plans.dY[i].map(dY => series.Y[k] + dY)};
+  if (!plans || plans.k.length === 0) return null;
+  const i = lastUpTo(plans.k, k);
+  const step = plans.k[i];
+  if (step > k || series.t[k] - series.t[step] > 0.5 || series.X[step] == null || series.Y[step] == null) return null;
+  return {step, X: plans.dX[i].map(dX => series.X[step] + dX), Y: plans.dY[i].map(dY => series.Y[step] + dY)};
 }
 
 function drawRoad(pen, {reference, left, right}) {
