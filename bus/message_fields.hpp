@@ -117,6 +117,13 @@ inline constexpr auto kFields<DisturbanceEstimate> =
            Field{"LongitudinalAcceleration", &DisturbanceEstimate::longitudinal_acceleration},
            Field{"StiffnessFactor", &DisturbanceEstimate::stiffness_factor},
            Field{"Grip", &DisturbanceEstimate::grip});
+template <>
+inline constexpr auto kFields<ManoeuvreStatus> =
+    Fields("ManoeuvreStatus", Field{"Decision", &ManoeuvreStatus::decision},
+           Field{"Reason", &ManoeuvreStatus::reason}, Field{"ObjectId", &ManoeuvreStatus::object_id},
+           Field{"Side", &ManoeuvreStatus::side}, Field{"LeftOut", &ManoeuvreStatus::left_out},
+           Field{"StopDistance", &ManoeuvreStatus::stop_distance},
+           Field{"SpeedLimit", &ManoeuvreStatus::speed_limit});
 
 // The last enumerator of each enumeration; all enumerations begin at 0 and have no gaps.
 inline constexpr ConstraintVerdict LastOf(ConstraintVerdict) {
@@ -124,6 +131,12 @@ inline constexpr ConstraintVerdict LastOf(ConstraintVerdict) {
 }
 inline constexpr ConstraintName LastOf(ConstraintName) {
   return ConstraintName::kTrust;
+}
+inline constexpr ManoeuvreDecision LastOf(ManoeuvreDecision) {
+  return ManoeuvreDecision::kSqueeze;
+}
+inline constexpr ManoeuvreReason LastOf(ManoeuvreReason) {
+  return ManoeuvreReason::kNoWay;
 }
 inline constexpr PassingSide LastOf(PassingSide) {
   return PassingSide::kRight;

@@ -216,9 +216,52 @@ struct DisturbanceEstimate {
   double grip = 0.0;                       // friction coefficient that plans count on
 };
 
-using Message = std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape,
-                             ObstacleMotion, ObstacleList, DriverRequest, SteeringCommand,
-                             AccelerationCommand, ControllerStatus, SchedulingHealth, HorizonHeader,
-                             HorizonPoint, ControllerDiagnostics, ConstraintReport, DisturbanceEstimate>;
+// The decision that a manoeuvre is, in the order of control::Decision.
+enum class ManoeuvreDecision : std::uint8_t {
+  kNone = 0,  // no decision in this cycle, or the controller makes none
+  kDrive = 1,
+  kPass = 2,
+  kFollow = 3,
+  kYield = 4,
+  kWait = 5,
+  kSqueeze = 6,
+};
+// Why the vehicle goes, or why it does not, in the order of control::Reason.
+enum class ManoeuvreReason : std::uint8_t {
+  kNone = 0,
+  kWayFree = 1,
+  kStayingCosts = 2,
+  kCannotStay = 3,
+  kLateForNow = 4,
+  kTooLateToStop = 5,
+  kRoadTooNarrow = 6,
+  kNoGap = 7,
+  kOncomingFirst = 8,
+  kCrossingFirst = 9,
+  kTooLate = 10,
+  kNoPath = 11,
+  kPassingGainsLittle = 12,
+  kOpenTooShort = 13,
+  kNoWay = 14,
+};
+
+// What was decided in a cycle about the other things on the road.
+struct ManoeuvreStatus {
+  static constexpr std::uint8_t kNoObject = 64;
+
+  ManoeuvreDecision decision = ManoeuvreDecision::kNone;
+  ManoeuvreReason reason = ManoeuvreReason::kNone;
+  std::uint8_t object_id = kNoObject;        // object that decides
+  PassingSide side = PassingSide::kUnknown;  // on which it is passed; kUnknown: it is not
+  std::uint8_t left_out = 0;                 // objects that matter but could not be considered; at most 63
+  double stop_distance = 409.5;              // to the stop line [m]; 409.5: 409.5 m or farther, or none
+  double speed_limit = 81.9;                 // at the vehicle's place [m/s]; 81.9: none
+};
+
+using Message =
+    std::variant<VehiclePose, VehicleMotion, VehicleFeedback, ObstaclePosition, ObstacleShape, ObstacleMotion,
+                 ObstacleList, DriverRequest, SteeringCommand, AccelerationCommand, ControllerStatus,
+                 SchedulingHealth, HorizonHeader, HorizonPoint, ControllerDiagnostics, ConstraintReport,
+                 DisturbanceEstimate, ManoeuvreStatus>;
 
 }  // namespace bus

@@ -47,6 +47,11 @@ void EventLog::Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base:
                      ? std::string("driver overrides, or inputs not healthy for long enough")
                      : FaultText(report));
   }
+  if (!bus::Drives(report.mode)) {
+    decision_.Reset();
+  } else if (decision_.Take(report.manoeuvre)) {
+    spdlog::info("{}", bus::ManoeuvreText(report.manoeuvre));
+  }
 
   std::uint64_t n = 0;
   for (std::size_t i = 0; i < safety::kRxFaults; ++i) {

@@ -8,6 +8,7 @@
 
 #include "base/latency_histogram.hpp"
 #include "base/time.hpp"
+#include "bus/decision_change.hpp"
 #include "loop/control_loop.hpp"
 
 namespace lpvmpcd {
@@ -26,7 +27,8 @@ class EventCount {
 class EventLog {
  public:
   // Logs the events of a cycle: changes of mode, faults, refused engagements, frames refused or lost, rejected obstacle
-  // lists, refused plans, unmet constraints, missed deadlines, missing states.
+  // lists, refused plans, unmet constraints, missed deadlines, missing states; and decisions about other things on the
+  // road, each with its reason and once (bus/decision_change.hpp).
   void Cycle(const loop::ControlLoop& loop, loop::Trigger trigger, base::Time now);
   // `total`: frames that the kernel dropped because the receive buffer was full.
   void Dropped(std::uint64_t total, base::Time now);
@@ -38,6 +40,7 @@ class EventLog {
  private:
   void Constraint(const loop::CycleReport& report, base::Time now);
 
+  bus::DecisionChange decision_;
   std::array<EventCount, safety::kRxFaults> rx_faults_;
   EventCount lost_, rejected_lists_, plans_refused_, deadline_misses_, late_states_, dropped_, unsent_;
   std::uint64_t timer_cycles_ = 0;

@@ -40,7 +40,14 @@ void Notifier::Cycle(const loop::CycleReport& report, const base::Latencies& lat
     last_watchdog_ = now;
     sd_notify(0, "WATCHDOG=1");
   }
-  const bool changed = report.mode != mode_ || report.fault != fault_;
+  bool changed = report.mode != mode_ || report.fault != fault_;
+  if (!bus::Drives(report.mode)) {
+    decision_.Reset();
+    decided_.clear();
+  } else if (decision_.Take(report.manoeuvre)) {
+    decided_ = bus::ManoeuvreText(report.manoeuvre) + "; ";
+    changed = true;
+  }
   if (reported_ && !changed && now - last_status_ < 1s) {
     return;
   }
@@ -52,11 +59,11 @@ void Notifier::Cycle(const loop::CycleReport& report, const base::Latencies& lat
     return fmt::format("p99 {:.2f} ms, max {:.2f} ms", base::Milliseconds(histogram.Percentile(0.99)),
                        base::Milliseconds(histogram.max()));
   };
-  sd_notify(0,
-            fmt::format("STATUS={}; {}; {} cycles, {} deadline misses; latency {}; step {}{}{}", Name(mode_),
-                        FaultText(report), report.cycles, report.deadline_misses, figures(latencies.cycle),
-                        figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
-                .c_str());
+  sd_notify(
+      0, fmt::format("STATUS={}; {}; {}{} cycles, {} deadline misses; latency {}; step {}{}{}", Name(mode_),
+                     FaultText(report), decided_, report.cycles, report.deadline_misses,
+                     figures(latencies.cycle), figures(latencies.step), remark_.empty() ? "" : "; ", remark_)
+             .c_str());
 }
 
 }  // namespace lpvmpcd

@@ -31,6 +31,7 @@ struct CycleReport {
     return rejection ? rejection : relaxation;
   }
   control::Disturbance disturbance = {};  // as estimated from the states
+  bus::ManoeuvreStatus manoeuvre = {};    // decided in this cycle, whether its plan is accepted or not
   double mu = 0.0;                        // friction coefficient that plans count on
   bool engagement_refused = false;        // the driver's request of this cycle was not granted
   std::optional<safety::FaultyMessage> faulty_message = std::nullopt;

@@ -113,6 +113,31 @@ void AppendDisturbance(const CycleReport& report, safety::CommandGate& gate,
          gate, frames);
 }
 
+bus::ManoeuvreStatus OnBus(const std::optional<control::ManoeuvreStatus>& manoeuvre) {
+  using control::Decision, control::Reason, control::Side;
+  if (!manoeuvre) return {};
+  const auto& decided = *manoeuvre;
+  // The bus has the same enumerators after its own "none".
+  static_assert(static_cast<int>(bus::ManoeuvreDecision::kSqueeze) ==
+                static_cast<int>(Decision::kSqueeze) + 1);
+  static_assert(static_cast<int>(bus::ManoeuvreReason::kNoWay) == static_cast<int>(Reason::kNoWay) + 1);
+  bus::ManoeuvreStatus status{
+      .decision = static_cast<bus::ManoeuvreDecision>(static_cast<int>(decided.decision) + 1),
+      .reason = static_cast<bus::ManoeuvreReason>(static_cast<int>(decided.reason) + 1),
+      .side = decided.side == Side::kLeft    ? bus::PassingSide::kLeft
+              : decided.side == Side::kRight ? bus::PassingSide::kRight
+                                             : bus::PassingSide::kUnknown,
+      .left_out = static_cast<std::uint8_t>(std::min<std::size_t>(decided.left_out, 63))};
+  if (decided.object >= 0) status.object_id = static_cast<std::uint8_t>(decided.object);
+  status.stop_distance = std::min(decided.stop_distance, status.stop_distance);
+  status.speed_limit = std::min(decided.speed_limit, status.speed_limit);
+  return status;
+}
+
+void AppendManoeuvre(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames) {
+  Append(report.manoeuvre, gate, frames);
+}
+
 void AppendHorizon(const control::Plan& plan, std::uint8_t state_counter, base::Time period,
                    safety::CommandGate& gate, std::vector<can::Frame>& frames) {
   const std::size_t points = std::min(plan.z.size(), kMaxPoints);

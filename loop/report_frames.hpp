@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/time.hpp"
+#include "bus/messages.hpp"
 #include "can/frame.hpp"
 #include "control/mpc/controller.hpp"
 #include "loop/cycle_report.hpp"
@@ -27,6 +29,11 @@ void AppendConstraint(const CycleReport& report, safety::CommandGate& gate, std:
 
 // DisturbanceEstimate.
 void AppendDisturbance(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames);
+
+// ManoeuvreStatus.
+void AppendManoeuvre(const CycleReport& report, safety::CommandGate& gate, std::vector<can::Frame>& frames);
+// A decision as it is told on the bus.
+[[nodiscard]] bus::ManoeuvreStatus OnBus(const std::optional<control::ManoeuvreStatus>& manoeuvre);
 
 // PlannedHorizon: header and points of a plan made for the state with this counter. At most 127 points, the largest
 // number that the message can carry.

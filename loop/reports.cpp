@@ -43,6 +43,7 @@ void Reports::Write(const CycleResult& result, const Planner& planner) {
              .relaxation = outcome.relaxation,
              .rejection = outcome.rejection,
              .disturbance = planner.disturbance(),
+             .manoeuvre = OnBus(solution != nullptr ? solution->manoeuvre : std::nullopt),
              .mu = planner.mu(),
              .engagement_refused = EngagementRefused(result),
              .faulty_message = result.known.faulty_message,
@@ -82,6 +83,7 @@ void Reports::AppendFrames(const CycleResult& result, bool send_horizon, safety:
   AppendDiagnostics(report_, result.mode, gate, frames);
   AppendConstraint(report_, gate, frames);
   AppendDisturbance(report_, gate, frames);
+  AppendManoeuvre(report_, gate, frames);
   if (send_horizon && result.outcome.accepted) {
     AppendHorizon(*result.outcome.solution, result.known.state.counter, period_, gate, frames);
   }

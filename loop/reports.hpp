@@ -36,8 +36,8 @@ class Reports {
   void Write(const CycleResult& result, const Planner& planner);
   // Appends only the status.
   void AppendStatus(safety::CommandGate& gate, std::vector<can::Frame>& frames) const;
-  // Appends status, scheduling health, diagnostics, constraint, disturbance, and with a new plan its horizon if
-  // `send_horizon`.
+  // Appends status, scheduling health, diagnostics, constraint, disturbance, manoeuvre, and with a new plan its
+  // horizon if `send_horizon`.
   void AppendFrames(const CycleResult& result, bool send_horizon, safety::CommandGate& gate,
                     std::vector<can::Frame>& frames) const;
 

@@ -23,9 +23,9 @@ struct Answer {
 };
 
 // Messages that the daemon sends besides its commands. The horizon's header and points share a message.
-using SentReports =
-    std::tuple<bus::ControllerStatus, bus::SchedulingHealth, bus::ControllerDiagnostics,
-               bus::ConstraintReport, bus::DisturbanceEstimate, bus::HorizonHeader, bus::HorizonPoint>;
+using SentReports = std::tuple<bus::ControllerStatus, bus::SchedulingHealth, bus::ControllerDiagnostics,
+                               bus::ConstraintReport, bus::DisturbanceEstimate, bus::ManoeuvreStatus,
+                               bus::HorizonHeader, bus::HorizonPoint>;
 
 template <typename Typed, typename List>
 inline constexpr bool kIsOneOf = false;

@@ -66,6 +66,17 @@ struct Summary {
   [[nodiscard]] bool passed() const { return failed_expectations.empty(); }
 };
 
+// One of the scenario's expectations, compared with what was measured.
+struct JudgedExpectation {
+  std::string figure;
+  std::string measured;
+  std::string expected;  // "at most 0.5"
+  std::string fault;     // in a line; "" if the expectation is met
+
+  [[nodiscard]] bool met() const { return fault.empty(); }
+};
+[[nodiscard]] std::vector<JudgedExpectation> JudgeExpectations(const Summary& summary,
+                                                               const Expectations& expect);
 // One line for each of the scenario's expectations that the summary does not meet.
 [[nodiscard]] std::vector<std::string> FailedExpectations(const Summary& summary, const Expectations& expect);
 

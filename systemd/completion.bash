@@ -18,6 +18,7 @@ _lpvmpcd() {
     --log | -o | --output) _filedir && return ;;
     --out | --record-qp | --scenarios) _filedir -d && return ;;
     --json) [[ ${words[1]} == catalogue ]] && _filedir json && return ;; # elsewhere without a value
+    --report) _filedir html && return ;;
     --horizon | --repeat | --jobs | --timeout | --count | --filter | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers, texts
   esac
 

@@ -11,6 +11,7 @@
 #include "control/mpc/vehicle_qp.hpp"
 #include "control/qp/status.hpp"
 #include "control/road/route_place.hpp"
+#include "control/traffic/manoeuvre_status.hpp"
 #include "control/vehicle/disturbance.hpp"
 #include "control/vehicle/types.hpp"
 
@@ -47,6 +48,8 @@ struct Plan {
   int active_trust_rows = 0;       // number of trust-region constraints at their bound
   double largest_slack = 0.0;      // in trust-region radii
   ConstraintViolation relaxation;  // largest slack of any other soft constraint; amount 0: none
+  // What was decided about the things on the road; none if the controller does not decide.
+  std::optional<ManoeuvreStatus> manoeuvre = std::nullopt;
 };
 
 class Controller {

@@ -40,6 +40,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   plan_.active_trust_rows = 0;
   plan_.largest_slack = 0.0;
   plan_.relaxation = {};
+  plan_.manoeuvre.reset();
   // A non-finite input would corrupt the stored passing decisions for good.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
@@ -50,6 +51,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   grip_ = Grip(settings_, input.mu_limit);
   model_ = DiscreteModel(BlendedModel(vehicle_, disturbance_), settings_.t_s);
   tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance);
+  plan_.manoeuvre = tracking_.manoeuvre_status();
   CompareScheduling();
   if (tracking_.waiting()) {
     tracking_.Hold(input.u_previous, plan_.z, plan_.u);

@@ -81,6 +81,20 @@ void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> 
   waiting_ = nowhere_to_go && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
 }
 
+ManoeuvreStatus TrackingProblem::manoeuvre_status() const {
+  ManoeuvreStatus status{
+      .decision = manoeuvre_->decision,
+      .reason = manoeuvre_->reason,
+      .object = manoeuvre_->object,
+      .side = manoeuvre_->passed,
+      .left_out = manoeuvre_->left_out,
+      .speed_limit = std::min(profile_->At(place_.s).speed, manoeuvre_->SpeedLimitAt(place_.s))};
+  for (const StopLine& line : manoeuvre_->stops()) {
+    status.stop_distance = std::min(status.stop_distance, line.s - place_.s);
+  }
+  return status;
+}
+
 double TrackingProblem::SpeedLimit(std::size_t i) const {
   const double s = s_ref_[i];
   const double limit = std::min(profile_->At(s).speed, manoeuvre_->SpeedLimitAt(s));

@@ -50,6 +50,7 @@ class TrackingProblem {
 
   [[nodiscard]] const State& z() const { return z_; }  // as given to Begin, but ψ within π of the road's
   [[nodiscard]] const Manoeuvre& manoeuvre() const { return *manoeuvre_; }
+  [[nodiscard]] ManoeuvreStatus manoeuvre_status() const;
   // Highest speed at step i [m/s].
   [[nodiscard]] double SpeedLimit(std::size_t i) const;
   // True (almost) at standstill with nowhere to go; hysteresis keeps noise from ending it.

@@ -32,6 +32,7 @@ void AffineNmpc::Reset() {
 const Plan& AffineNmpc::Step(const ControllerInput& input) {
   plan_.iterations = 0;
   plan_.relaxation = {};
+  plan_.manoeuvre.reset();
   // A non-finite input would corrupt the passing decisions for good.
   if (!IsFinite(input)) {
     plan_.status = SolverStatus::kNumericalFailure;
@@ -39,6 +40,7 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
     return plan_;
   }
   tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance);
+  plan_.manoeuvre = tracking_.manoeuvre_status();
   if (tracking_.waiting()) {
     tracking_.Hold(input.u_previous, plan_.z, plan_.u);
     plan_.status = SolverStatus::kSolved;

@@ -14,6 +14,7 @@
 
 #include "control/road/road_profile.hpp"
 #include "control/traffic/gaps.hpp"
+#include "control/traffic/manoeuvre_status.hpp"
 #include "control/traffic/road_objects.hpp"
 #include "control/traffic/speed_plan.hpp"
 #include "control/traffic/stations.hpp"
@@ -27,8 +28,6 @@ struct CorridorSettings {
   double road_margin = 0.4;      // usual gap to the road's edges [m]
   double grip = 5.0;             // acceleration that the tyres can provide [m/s²]
 };
-
-enum class Side : signed char { kNone, kLeft, kRight };
 
 // A way: at each station the gap that it goes through, and where.
 struct Way {

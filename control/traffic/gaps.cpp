@@ -41,8 +41,10 @@ void Gaps::Add(double right, const Margin& margin_right, double left, const Marg
   if (room < least || count_ == kMost) return;
   const double wanted = margin_right.wanted + margin_left.wanted;
   const double r = room < wanted ? (room - least) / (wanted - least) : 1.0;
-  gaps_[count_++] = {.lo = right + half_width + margin_right.At(r),
-                     .hi = left - half_width - margin_left.At(r),
+  const double lo = right + half_width + margin_right.At(r);
+  // Margins that shrink leave no play, and round-off must not make it negative.
+  gaps_[count_++] = {.lo = lo,
+                     .hi = std::max(left - half_width - margin_left.At(r), lo),
                      .share = r,
                      .speed = SpeedInGap(r, std::min(margin_right.speed, margin_left.speed))};
 }

@@ -3,30 +3,23 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "control/traffic/corridor.hpp"
 #include "control/traffic/lateral_path.hpp"
+#include "control/traffic/manoeuvre_status.hpp"
 #include "control/traffic/road_object.hpp"
 #include "control/traffic/stop_line.hpp"
 
 namespace control {
 
-enum class Decision : std::uint8_t {
-  kDrive,    // nothing is in the way
-  kPass,     // an object is passed
-  kFollow,   // an object that moves ahead is followed
-  kYield,    // an object that crosses or comes towards the vehicle goes first
-  kWait,     // an object that does not move blocks the way
-  kSqueeze,  // neither passing nor stopping is possible with the margins: the vehicle uses them up
-};
-
 struct Manoeuvre {
   static constexpr std::size_t kMostStops = 4;
 
   Decision decision = Decision::kDrive;
-  int object = -1;  // id of the object that decides; -1: none
+  Reason reason = Reason::kWayFree;
+  int object = -1;            // id of the object that decides; -1: none
+  Side passed = Side::kNone;  // on which that object is passed; kNone: it is not
   LateralPath path;
   StationValues speed_limit{};  // at the path's stations [m/s]
   StationValues play{};         // lateral freedom of the vehicle's centre there [m]

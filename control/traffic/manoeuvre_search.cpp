@@ -85,6 +85,7 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
   const auto objects = objects_.objects();
   const std::span stops(candidate.stop_lines.data(), candidate.stop_count);
   candidate.possible = candidate.late = false;
+  candidate.obstacle = Reason::kWayFree;
   candidate.blocker.reset();
   const auto plan_speeds = [&](const StationValues& allowed) {
     return PlanSpeed(stations_, allowed, stops, vehicle_.speed, profile_->limits(), settings_.horizon);
@@ -98,8 +99,12 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
     corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, settings_.horizon, squeeze,
                    candidate.stop_count == 0 ? leaves_ : kNever, candidate.way);
     const bool blocked = candidate.way.reached < candidate.speeds.count;
-    if (blocked) candidate.blocker = Blocker(candidate);
+    if (blocked) {
+      candidate.blocker = Blocker(candidate);
+      candidate.obstacle = Obstruction(candidate);
+    }
     if (!smoother_.Smooth(stations_, start_, candidate.way, candidate.speeds, curvature_, candidate.path)) {
+      if (!blocked) candidate.obstacle = Reason::kNoPath;
       return;
     }
     LimitSpeed(candidate);
@@ -115,6 +120,7 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
   candidate.blocker = Touched(candidate);
   if (candidate.blocker) {
     candidate.late = objects[*candidate.blocker].Moves();
+    candidate.obstacle = candidate.late ? Reason::kTooLate : Reason::kNoPath;
     return;
   }
   candidate.possible = true;
@@ -234,6 +240,22 @@ std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) 
     }
   }
   return blocker;
+}
+
+// Of several causes that come together, the one counts that passes soonest.
+Reason ManoeuvreSearch::Obstruction(const Candidate& candidate) {
+  const auto objects = objects_.objects();
+  Reason reason = Reason::kRoadTooNarrow;
+  for (const std::size_t k :
+       corridor_.Beside(stations_, objects, candidate.speeds, candidate.way.reached, 0.0)) {
+    if (objects[k].ComesTowards()) return Reason::kOncomingFirst;
+    if (objects[k].crosses && objects[k].Moves()) {
+      reason = Reason::kCrossingFirst;
+    } else if (reason == Reason::kRoadTooNarrow) {
+      reason = Reason::kNoGap;
+    }
+  }
+  return reason;
 }
 
 void ManoeuvreSearch::AddStop(std::optional<std::size_t> object, Candidate& candidate) const {

@@ -23,7 +23,8 @@ namespace control {
 struct Candidate {
   bool possible = false;
   bool late = false;  // there is a way, but at the speeds that it allows the vehicle would be late for it
-  double cost = 0.0;  // [s]
+  Reason obstacle = Reason::kWayFree;  // why it is not possible
+  double cost = 0.0;                   // [s]
   Way way;
   SpeedPlan speeds;
   LateralPath path;
@@ -63,6 +64,8 @@ class ManoeuvreSearch {
   void Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate);
   void AddStop(std::optional<std::size_t> object, Candidate& candidate) const;
   [[nodiscard]] std::optional<std::size_t> Blocker(const Candidate& candidate);
+  // Why the way leads no farther.
+  [[nodiscard]] Reason Obstruction(const Candidate& candidate);
   // The object that the path touches at the times of the speed plan, if there is one.
   [[nodiscard]] std::optional<std::size_t> Touched(const Candidate& candidate);
   void LimitSpeed(Candidate& candidate) const;

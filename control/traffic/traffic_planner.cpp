@@ -54,22 +54,32 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
   }
   const bool compare = !go_.possible || (ahead && go_.cost > search_.FreeTime() + kWorthwhile);
   bool stay = !go_.possible;
+  Reason reason = go_.obstacle;
   behind_.possible = false;
   if (compare || stays_behind_) {
     behind_.way.reached = go_.way.reached;
     search_.StayBehind(ahead, kept_, behind_);
     if (go_.possible && behind_.possible) {
       stay = ahead && behind_.cost < go_.cost + (stays_behind_ ? kHysteresis : -kHysteresis);
+      if (compare || stay) reason = stay ? Reason::kPassingGainsLittle : Reason::kStayingCosts;
+    } else if (go_.possible && compare) {
+      reason = Reason::kCannotStay;
     }
   }
   // A way that was free is not given up because of a single cycle.
   late_cycles_ = go_.late ? late_cycles_ + 1 : 0;
-  if (!stays_behind_ && go_.late && late_cycles_ < kGivenUp && search_.CanStop(behind_)) stay = false;
+  if (!stays_behind_ && go_.late && late_cycles_ < kGivenUp && search_.CanStop(behind_)) {
+    stay = false;
+    reason = Reason::kLateForNow;
+  }
   open_cycles_ = stay ? 0 : open_cycles_ + 1;
-  if (stays_behind_ && behind_.possible && open_cycles_ < kReopened) stay = true;
+  if (!stay && stays_behind_ && behind_.possible && open_cycles_ < kReopened) {
+    stay = true;
+    reason = Reason::kOpenTooShort;
+  }
 
   if (!stay) {
-    Take(go_, ahead ? Decision::kPass : Decision::kDrive, ahead, obstacles);
+    Take(go_, ahead ? Decision::kPass : Decision::kDrive, reason, ahead, obstacles);
   } else if (search_.CanStop(behind_)) {
     Decision decision = Decision::kWait;
     if (behind_.stop_count > 0 && behind_.stop_objects[0] < objects.size()) {
@@ -77,21 +87,25 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
       ahead = behind_.stop_objects[0];
       if (object.Moves()) decision = object.MovesAhead() ? Decision::kFollow : Decision::kYield;
     }
-    Take(behind_, decision, ahead, obstacles);
+    Take(behind_, decision, reason, ahead, obstacles);
   } else {
     search_.Go(kept_, true, decided, go_);
-    Take(go_.possible ? go_ : behind_, Decision::kSqueeze, ahead, obstacles);
+    Take(go_.possible ? go_ : behind_, Decision::kSqueeze,
+         go_.possible ? Reason::kTooLateToStop : Reason::kNoWay, ahead, obstacles);
     stay = !go_.possible;
   }
   stays_behind_ = stay;
   return manoeuvre_;
 }
 
-void TrafficPlanner::Take(const Candidate& candidate, Decision decision, std::optional<std::size_t> object,
-                          std::span<const Obstacle> obstacles) {
+void TrafficPlanner::Take(const Candidate& candidate, Decision decision, Reason reason,
+                          std::optional<std::size_t> object, std::span<const Obstacle> obstacles) {
   const auto objects = search_.objects().objects();
+  const bool passes = decision == Decision::kPass || decision == Decision::kSqueeze;
   manoeuvre_.decision = decision;
-  manoeuvre_.object = object && *object < objects.size() ? obstacles[objects[*object].index].id : -1;
+  manoeuvre_.reason = reason;
+  manoeuvre_.object = object ? obstacles[objects[*object].index].id : -1;
+  manoeuvre_.passed = object && passes ? candidate.way.side[*object] : Side::kNone;
   manoeuvre_.path = candidate.path;
   manoeuvre_.speed_limit = candidate.speed_limit;
   manoeuvre_.stop_lines = candidate.stop_lines;

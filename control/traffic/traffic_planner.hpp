@@ -38,7 +38,7 @@ class TrafficPlanner {
 
   [[nodiscard]] Side& Kept(const Obstacle& obstacle);
   [[nodiscard]] LateralPoint Start(const RoadPosition& vehicle) const;
-  void Take(const Candidate& candidate, Decision decision, std::optional<std::size_t> object,
+  void Take(const Candidate& candidate, Decision decision, Reason reason, std::optional<std::size_t> object,
             std::span<const Obstacle> obstacles);
 
   TrafficSettings settings_;

@@ -57,7 +57,7 @@ def compare(line, frames):
 
 def main():
     frames = load(sys.argv[1])
-    assert len(frames) == 14, f"{len(frames)} messages"
+    assert len(frames) == 15, f"{len(frames)} messages"
     output = subprocess.run([sys.argv[2]], check=True, stdout=subprocess.PIPE, text=True).stdout
     kinds = set()
     values = 0

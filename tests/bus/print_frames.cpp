@@ -63,7 +63,9 @@ std::array<bus::Message, std::variant_size_v<bus::Message>> RandomMessages(Value
                                      v.Byte(7), v.Byte(10), v.Real(), v.Byte(256)},
           bus::ConstraintReport{v.One(bus::ConstraintVerdict::kRejected), v.One(bus::ConstraintName::kTrust),
                                 v.Byte(64), v.Byte(128), v.Real()},
-          bus::DisturbanceEstimate{v.Real(), v.Real(), v.Real(), v.Real(), v.Real()}};
+          bus::DisturbanceEstimate{v.Real(), v.Real(), v.Real(), v.Real(), v.Real()},
+          bus::ManoeuvreStatus{v.One(bus::ManoeuvreDecision::kSqueeze), v.One(bus::ManoeuvreReason::kNoWay),
+                               v.Byte(65), v.One(bus::PassingSide::kRight), v.Byte(64), v.Real(), v.Real()}};
 }
 
 }  // namespace

@@ -68,6 +68,13 @@ const std::vector<Message>& Samples() {
                           .longitudinal_acceleration = -0.49,
                           .stiffness_factor = 0.85,
                           .grip = 0.635},
+      ManoeuvreStatus{.decision = ManoeuvreDecision::kPass,
+                      .reason = ManoeuvreReason::kNoWay,
+                      .object_id = 63,
+                      .side = PassingSide::kRight,
+                      .left_out = 63,
+                      .stop_distance = -1.5,
+                      .speed_limit = 13.9},
   };
   return kSamples;
 }
@@ -290,7 +297,7 @@ TEST(VehicleBus, OwnFramesAreInRangeUntilOneOfTheirValuesIsNot) {
 
 TEST(VehicleBus, MessagesAreListedWithIdPeriodAndDistinctDataIds) {
   const VehicleBus bus;
-  ASSERT_EQ(bus.messages().size(), 14u);
+  ASSERT_EQ(bus.messages().size(), 15u);
   std::set<std::uint16_t> data_ids;
   for (const MessageInfo& info : bus.messages()) {
     EXPECT_EQ(info.length, 8);

@@ -73,9 +73,9 @@ TEST_F(VehicleDbc, EveryRangeIsHeldByTheBits) {
 
 TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   for (const dbc::MessageDefinition& message : database_.messages) {
-    for (const char* name :
-         {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Shape", "Class", "Part", "Page", "Cause",
-          "PreviousMode", "FaultyMessage", "FrameFault", "Verdict", "Constraint"}) {
+    for (const char* name : {"Mode", "FaultCode", "SolverStatus", "PassingSide", "Shape", "Class", "Part",
+                             "Page", "Cause", "PreviousMode", "FaultyMessage", "FrameFault", "Verdict",
+                             "Constraint", "Decision", "Reason", "Side"}) {
       const dbc::Signal* signal = message.Find(name);
       if (signal == nullptr) continue;
       EXPECT_EQ(signal->values.size(), static_cast<std::size_t>(signal->max) + 1) << name;
@@ -97,6 +97,14 @@ TEST_F(VehicleDbc, EnumerationsHaveATextForEachOfTheirValues) {
   EXPECT_EQ(shape->max, static_cast<double>(Outline::kBox));
   const dbc::Signal* constraint = database_.Find("ConstraintReport")->Find("Constraint");
   EXPECT_EQ(constraint->max, static_cast<double>(ConstraintName::kTrust));
+  const dbc::MessageDefinition& manoeuvre = *database_.Find("ManoeuvreStatus");
+  const dbc::Signal* decision = manoeuvre.Find("Decision");
+  EXPECT_EQ(decision->values.at(static_cast<int>(ManoeuvreDecision::kYield)), "Yield");
+  EXPECT_EQ(decision->max, static_cast<double>(ManoeuvreDecision::kSqueeze));
+  const dbc::Signal* reason = manoeuvre.Find("Reason");
+  EXPECT_EQ(reason->values.at(static_cast<int>(ManoeuvreReason::kOncomingFirst)), "OncomingFirst");
+  EXPECT_EQ(reason->max, static_cast<double>(ManoeuvreReason::kNoWay));
+  EXPECT_EQ(manoeuvre.Find("ObjectId")->values.at(ManoeuvreStatus::kNoObject), "None");
 }
 
 }  // namespace

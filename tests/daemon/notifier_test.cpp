@@ -100,6 +100,32 @@ TEST_F(NotifierTest, StatusComesAtOnceWithAChangeAndOtherwiseOnceASecond) {
   EXPECT_THAT(Messages().front(), StartsWith("STATUS=Standby; not on the route or too slow"));
 }
 
+TEST_F(NotifierTest, StatusTellsThePresentDecisionAtOnceAndWhileItHolds) {
+  using bus::ManoeuvreDecision, bus::ManoeuvreReason;
+  Notifier notifier;
+  loop::CycleReport report{.mode = bus::Mode::kActive,
+                           .manoeuvre = {.decision = ManoeuvreDecision::kPass,
+                                         .reason = ManoeuvreReason::kWayFree,
+                                         .object_id = 3,
+                                         .side = bus::PassingSide::kLeft}};
+  notifier.Cycle(report, latencies_, 1s);
+  EXPECT_THAT(Messages().front(),
+              StartsWith("STATUS=Active; no fault; passes object 3 on the left: the way is free; 0 cycles"));
+  report.manoeuvre.side = bus::PassingSide::kRight;
+  for (int k = 0; k < bus::DecisionChange::kSteady; ++k) {
+    EXPECT_EQ(Messages().size(), 0U);
+    notifier.Cycle(report, latencies_, 1100ms);
+  }
+  EXPECT_THAT(Messages().at(0), HasSubstr("passes object 3 on the right"));
+  report.manoeuvre = {};  // a cycle without a plan
+  notifier.Cycle(report, latencies_, 1200ms);
+  EXPECT_EQ(Messages().size(), 0U);
+  notifier.Cycle(report, latencies_, 2200ms);
+  EXPECT_THAT(Messages().at(0), HasSubstr("passes object 3"));
+  notifier.Cycle({.mode = bus::Mode::kStandby}, latencies_, 2300ms);
+  EXPECT_THAT(Messages().at(0), Not(HasSubstr("passes")));
+}
+
 TEST_F(NotifierTest, ReloadTellsItsTime) {
   Notifier notifier;
   notifier.Reloading();

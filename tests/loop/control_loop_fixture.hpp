@@ -17,12 +17,13 @@ using namespace std::chrono_literals;
 
 class ControlLoopTest : public testing::Test {
  protected:
-  static constexpr std::size_t kWithoutHorizon = 7;  // frames of a cycle
+  static constexpr std::size_t kWithoutHorizon = 8;  // frames of a cycle
   struct Sent {
     bus::SteeringCommand steering;
     bus::AccelerationCommand acceleration;
     bus::ControllerStatus status;
     bus::ControllerDiagnostics diagnostics;
+    bus::ManoeuvreStatus manoeuvre;
     std::size_t frames = 0;
   };
 
@@ -40,6 +41,7 @@ class ControlLoopTest : public testing::Test {
     sent.acceleration = Decode<bus::AccelerationCommand>(frames[1]);
     sent.status = Decode<bus::ControllerStatus>(frames[2]);
     sent.diagnostics = Decode<bus::ControllerDiagnostics>(frames[4]);
+    sent.manoeuvre = Decode<bus::ManoeuvreStatus>(frames[7]);
     const bool enabled = sent.steering.mode == bus::Mode::kActive ||
                          sent.steering.mode == bus::Mode::kDegraded ||
                          sent.steering.mode == bus::Mode::kSafeStop;

@@ -71,6 +71,36 @@ TEST_F(ControlLoopTest, HorizonFramesCarryThePlan) {
   }
 }
 
+TEST_F(ControlLoopTest, DecisionOfThePlanIsOnTheBus) {
+  controller_.manoeuvre = control::ManoeuvreStatus{.decision = control::Decision::kPass,
+                                                   .reason = control::Reason::kStayingCosts,
+                                                   .object = 3,
+                                                   .side = control::Side::kLeft,
+                                                   .left_out = 100,
+                                                   .speed_limit = 12.5};
+  EXPECT_EQ(Period().manoeuvre.decision, bus::ManoeuvreDecision::kNone);
+  const bus::ManoeuvreStatus passes = Engage().manoeuvre;
+  EXPECT_EQ(passes.decision, bus::ManoeuvreDecision::kPass);
+  EXPECT_EQ(passes.reason, bus::ManoeuvreReason::kStayingCosts);
+  EXPECT_EQ(passes.object_id, 3);
+  EXPECT_EQ(passes.side, bus::PassingSide::kLeft);
+  EXPECT_EQ(passes.left_out, 63);
+  EXPECT_NEAR(passes.stop_distance, 409.5, 1e-9);
+  EXPECT_NEAR(passes.speed_limit, 12.5, 0.01);
+
+  controller_.manoeuvre = control::ManoeuvreStatus{
+      .decision = control::Decision::kWait, .reason = control::Reason::kRoadTooNarrow, .stop_distance = 7.3};
+  const bus::ManoeuvreStatus waits = Period().manoeuvre;
+  EXPECT_EQ(waits.decision, bus::ManoeuvreDecision::kWait);
+  EXPECT_EQ(waits.reason, bus::ManoeuvreReason::kRoadTooNarrow);
+  EXPECT_EQ(waits.object_id, bus::ManoeuvreStatus::kNoObject);
+  EXPECT_EQ(waits.side, bus::PassingSide::kUnknown);
+  EXPECT_NEAR(waits.stop_distance, 7.3, 1e-9);
+  EXPECT_NEAR(waits.speed_limit, 81.9, 1e-9);
+
+  EXPECT_EQ(TimerPeriod().manoeuvre.decision, bus::ManoeuvreDecision::kNone) << "no plan was made";
+}
+
 TEST_F(ControlLoopTest, EveryCommandAnswersTheCounterOfItsState) {
   Engage();
   for (int i = 0; i < 40; ++i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "control/mpc/timed_controller.hpp"
@@ -34,6 +35,7 @@ class FakeController : public control::TrackingController {
     reference_size = input.reference.size();
     plan_.status = status;
     plan_.iterations = 7;
+    plan_.manoeuvre = manoeuvre;
     if (poison_input) plan_.u[3][control::kDelta] = std::numeric_limits<double>::quiet_NaN();
     // Straight on from the state, whatever the inputs are.
     for (std::size_t i = 0; i < plan_.z.size(); ++i) {
@@ -47,6 +49,7 @@ class FakeController : public control::TrackingController {
   void Reset() override { ++resets; }
 
   control::SolverStatus status = control::SolverStatus::kSolved;
+  std::optional<control::ManoeuvreStatus> manoeuvre;
   bool poison = false;
   bool poison_input = false;  // puts a NaN into the last input
   int steps = 0;

@@ -56,6 +56,8 @@ Completes '' lpvmpc sweep --shard ''
 Completes '--filter' lpvmpc catalogue --f
 Completes '' lpvmpc catalogue --filter ''
 Completes 'drive' lpvmpc catalogue --json ''
+Completes '--report' lpvmpc catalogue --rep
+Completes 'drive' lpvmpc catalogue --report ''
 
 for program in lpvmpcd lpvmpc-sim lpvmpc; do
   complete -p "$program" | grep -q -- '-F _lpvmpcd' || { echo "FAILED: no completion of $program" >&2; failures=1; }

@@ -40,6 +40,8 @@ class CommandGateTest : public testing::Test {
     frames.push_back(frame);
     EXPECT_TRUE(gate_.Encode(bus::DisturbanceEstimate{}, frame));
     frames.push_back(frame);
+    EXPECT_TRUE(gate_.Encode(bus::ManoeuvreStatus{}, frame));
+    frames.push_back(frame);
     EXPECT_TRUE(gate_.Encode(bus::HorizonHeader{}, frame));
     frames.push_back(frame);
     return frames;
@@ -94,9 +96,10 @@ TEST_F(CommandGateTest, AgeBeyondWhatTheFrameHoldsIsItsLargest) {
 }
 
 TEST_F(CommandGateTest, EveryMessageHasItsOwnIdAndCounterAndIsProtected) {
-  const std::array<const char*, 8> names = {
-      "SteeringCommand",       "AccelerationCommand", "ControllerStatus",    "SchedulingHealth",
-      "ControllerDiagnostics", "ConstraintReport",    "DisturbanceEstimate", "PlannedHorizon"};
+  const std::array<const char*, 9> names = {
+      "SteeringCommand",     "AccelerationCommand",   "ControllerStatus",
+      "SchedulingHealth",    "ControllerDiagnostics", "ConstraintReport",
+      "DisturbanceEstimate", "ManoeuvreStatus",       "PlannedHorizon"};
   for (std::uint8_t i = 0; i < 31; ++i) {
     const std::vector<can::Frame> frames = OneOfEach();
     for (std::size_t message = 0; message < frames.size(); ++message) {

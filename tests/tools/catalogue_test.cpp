@@ -1,5 +1,6 @@
 #include "tools/catalogue/catalogue.hpp"
 
+#include <algorithm>
 #include <fmt/ranges.h>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -30,7 +32,7 @@ using tools::CatalogueOutcome;
 const std::filesystem::path kCatalogue = LPVMPC_SOURCE_DIR "/scenarios/catalogue";
 
 TEST(TheCatalogue, HoldsWhatEachScenarioExpects) {
-  const std::vector<CatalogueDrive> drives = tools::DriveCatalogue(kCatalogue, "", 2);
+  const std::vector<CatalogueDrive> drives = tools::DriveCatalogue(kCatalogue, "", 2, false);
   EXPECT_GE(drives.size(), 60U);
   for (const CatalogueDrive& drive : drives) {
     EXPECT_TRUE(drive.outcome == CatalogueOutcome::kPassed || drive.outcome == CatalogueOutcome::kOpen)
@@ -73,7 +75,8 @@ class SmallCatalogue : public testing::Test {
   int Drive(const std::string& filter = "") {
     out_.str("");
     return tools::Catalogue(
-        {.folder = folder_.path(), .filter = filter, .jobs = 2, .json = folder_ / "out.json"}, out_);
+        {.folder = folder_.path(), .filter = filter, .jobs = 2, .json = folder_ / "out.json", .report = {}},
+        out_);
   }
   [[nodiscard]] std::vector<std::string> Outcomes() const {
     std::vector<std::string> outcomes;
@@ -94,6 +97,35 @@ TEST_F(SmallCatalogue, FailsIfAScenarioDoes) {
   EXPECT_THAT(Outcomes(), ElementsAre("passed", "failed"));
   EXPECT_THAT(out_.str(), HasSubstr("002-bad, failed: rms_steering_rate"));
   EXPECT_THAT(out_.str(), HasSubstr("1 passed, 1 failed, 0 open"));
+}
+
+TEST_F(SmallCatalogue, ThePageShowsEachDriveWithPurposeExpectationAndResult) {
+  const std::filesystem::path file = folder_ / "page.html";
+  EXPECT_EQ(
+      tools::Catalogue({.folder = folder_.path(), .filter = "", .jobs = 2, .json = {}, .report = file}, out_),
+      1);
+  const std::string page = config::ReadTextFile(file);
+  const std::size_t from = page.find('>', page.find("<script type=\"application/json\"")) + 1;
+  const auto data = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  ASSERT_EQ(data.at("sections").size(), 3u);
+  EXPECT_EQ(data.at("sections").at(0).at("rows").size(), 2u);
+  const sim::Scenario scenario = sim::LoadScenario(folder_ / "001-good" / "scenario.toml");
+  for (const auto& [i, title, verdict] :
+       {std::tuple(1, "001-good: passed", "good"), std::tuple(2, "002-bad: failed", "bad")}) {
+    const nlohmann::json& fold = data.at("sections").at(static_cast<std::size_t>(i));
+    EXPECT_EQ(fold.at("title"), title);
+    EXPECT_EQ(fold.at("verdict"), verdict);
+    EXPECT_EQ(fold.at("paragraphs").at(0), scenario.description);
+    const nlohmann::json& rows = fold.at("sections").at(0).at("rows");
+    const auto row =
+        std::ranges::find(rows, "rms_steering_rate", [](const auto& cells) { return cells.at(0); });
+    ASSERT_NE(row, rows.end());
+    EXPECT_EQ(row->at(2).at("verdict"), verdict);
+    const nlohmann::json& drive = data.at("drives").at(fold.at("sections").at(1).at("drives").at(0));
+    EXPECT_TRUE(data.at("roads").contains(drive.at("road")));
+    EXPECT_GT(drive.at("series").at("t").size(), 100u);
+    EXPECT_EQ(drive.at("decisions").at(0).at("decision"), "drives");
+  }
 }
 
 TEST_F(SmallCatalogue, AnOpenScenarioMayFail) {

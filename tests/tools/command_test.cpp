@@ -58,6 +58,13 @@ TEST(Lpvmpc, CatalogueIsFoundBesideTheProgram) {
       test_support::Run({LPVMPC, "catalogue", "--filter", "stop-at-end", "--jobs", "1"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("1 passed, 0 failed"));
+  const test_support::TempDir folder;
+  const std::string in_folder =
+      "cd " + folder.path().string() + " && exec " LPVMPC " catalogue --jobs 1 --filter stop-at-end ";
+  EXPECT_EQ(test_support::Run({"sh", "-c", in_folder + "--report"}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "catalogue.html"));
+  EXPECT_EQ(test_support::Run({"sh", "-c", in_folder + "--report named.html"}).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "named.html"));
   ExpectOneLine({LPVMPC, "catalogue", "--filter", "no-such"}, HasSubstr("'no-such'"));
   ExpectOneLine({LPVMPC, "catalogue", "--scenarios", "/nowhere"}, HasSubstr("/nowhere"));
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "tests/bus/bus_frames.hpp"
 #include "tools/drive/closed_loop.hpp"
@@ -55,14 +56,14 @@ TEST_F(DriveRecordTest, EveryStateSetIsASampleWithTheAnswerToIt) {
 TEST_F(DriveRecordTest, ObstaclesAreThoseOfTheScenario) {
   const DriveRecord record = Record(frames_);
   const auto obstacles = sim::LoadScenario(kDemo / "scenario.toml").obstacles;
-  ASSERT_EQ(record.obstacles.size(), obstacles.size());
+  ASSERT_EQ(record.objects.size(), obstacles.size());
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    EXPECT_EQ(record.obstacles[i].id, obstacles[i].id);
-    EXPECT_NEAR(record.obstacles[i].X, obstacles[i].X, 1e-3);
-    EXPECT_NEAR(record.obstacles[i].Y, obstacles[i].Y, 1e-3);
-    EXPECT_NEAR(record.obstacles[i].r_x, obstacles[i].r_x, 2e-3);
-    EXPECT_NEAR(record.obstacles[i].r_y, obstacles[i].r_y, 2e-3);
-    EXPECT_NEAR(std::remainder(record.obstacles[i].heading - obstacles[i].heading, 2 * M_PI), 0.0, 1e-3);
+    EXPECT_EQ(record.objects[i].first.id, obstacles[i].id);
+    EXPECT_NEAR(record.objects[i].first.X, obstacles[i].X, 1e-3);
+    EXPECT_NEAR(record.objects[i].first.Y, obstacles[i].Y, 1e-3);
+    EXPECT_NEAR(record.objects[i].first.r_x, obstacles[i].r_x, 2e-3);
+    EXPECT_NEAR(record.objects[i].first.r_y, obstacles[i].r_y, 2e-3);
+    EXPECT_NEAR(std::remainder(record.objects[i].first.heading - obstacles[i].heading, 2 * M_PI), 0.0, 1e-3);
   }
 }
 
@@ -75,9 +76,11 @@ TEST_F(DriveRecordTest, ObstaclesHaveTheirShapeAndClass) {
            bus::ObstacleMotion{.object_id = 63, .object_class = bus::ObstacleClass::kVehicle}}) {
     recorder.Take(bus::MakeFrame(bus_, message, counter++));
   }
-  ASSERT_EQ(recorder.record().obstacles.size(), 1u);
-  EXPECT_EQ(recorder.record().obstacles[0].shape, control::ObstacleShape::kBox);
-  EXPECT_EQ(recorder.record().obstacles[0].object_class, control::ObstacleClass::kVehicle);
+  bus::FakeVehicle vehicle(bus_);
+  for (const can::Frame& frame : vehicle.State()) recorder.Take(frame);
+  ASSERT_EQ(recorder.record().objects.size(), 1u);
+  EXPECT_EQ(recorder.record().objects[0].first.shape, control::ObstacleShape::kBox);
+  EXPECT_EQ(recorder.record().objects[0].first.object_class, control::ObstacleClass::kVehicle);
 }
 
 TEST_F(DriveRecordTest, LostStateSetsLeaveAGapInTime) {
@@ -152,27 +155,63 @@ TEST_F(DriveRecordTest, AnswerToAStateThatWasLostIsNobodys) {
   EXPECT_EQ(record.samples[300].plan, whole.samples[301].plan);
 }
 
-TEST_F(DriveRecordTest, PositionOfAMovingObstacleIsMovedBackToTheStart) {
+TEST_F(DriveRecordTest, ObjectIsWhereItWasReportedHoweverItMoved) {
+  // It sets off on the route, brakes again and disappears.
   sim::Scenario scenario = sim::LoadScenario(kDemo / "scenario.toml");
-  scenario.obstacles = {
-      {.id = 3, .X = 200.0, .Y = 60.0, .r_x = 1.0, .r_y = 1.0, .velocity_X = 2.0, .velocity_Y = -1.0}};
+  scenario.obstacles = {{.id = 3, .r_x = 1.0, .r_y = 1.0}};
+  scenario.motions[3] = {.s = 100.0, .speed = {{.time = 1.0}, {.time = 3.0, .speed = 10.0}, {.time = 6.0}}};
+  scenario.disappears_at[3] = 8.0;
   scenario.duration = 10.0;
-  DriveRecorder whole(bus_, 0.05), late(bus_, 0.05);
+  DriveRecorder recorder(bus_, 0.05);
+  std::vector<Eigen::Vector2d> told;
   (void)tools::DriveClosedLoop(scenario, loop::LoadConfig(kDemo / "lpvmpcd.toml"),
                                {.frame = [&](const can::Frame& frame) {
-                                 whole.Take(frame);
-                                 const bool lost = frame.timestamp < can::Time(std::chrono::seconds(5));
-                                 if (!lost || !Is<bus::ObstaclePosition>(frame)) late.Take(frame);
+                                 recorder.Take(frame);
+                                 if (!Is<bus::ObstaclePosition>(frame)) return;
+                                 const auto message = bus_.Decode(frame.id, frame.Payload());
+                                 if (const auto* at = std::get_if<bus::ObstaclePosition>(&*message))
+                                   told.emplace_back(at->X, at->Y);
                                }});
-  ASSERT_EQ(whole.record().obstacles.size(), 1u);
-  ASSERT_EQ(late.record().obstacles.size(), 1u);
-  EXPECT_NEAR(late.record().obstacles[0].X, 200.0, 0.05);
-  EXPECT_NEAR(late.record().obstacles[0].Y, 60.0, 0.05);
-  const tools::DriveSample& last = whole.record().samples.back();
-  const double t = whole.record().Time(last);
-  EXPECT_GT(t, 9.0);
-  EXPECT_NEAR(whole.record().Distance(last, whole.record().obstacles[0]),
-              std::hypot(last.z[control::kX] - 200.0 - 2.0 * t, last.z[control::kY] - 60.0 + t), 0.05);
+  const DriveRecord& record = recorder.record();
+  ASSERT_EQ(record.objects.size(), 1u);
+  const tools::RecordedObject& object = record.objects[0];
+  ASSERT_EQ(object.places.size(), told.size());
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    EXPECT_EQ(object.places[k].X, told[k].x());
+    EXPECT_EQ(object.At(static_cast<std::int64_t>(k)).Y, told[k].y());
+  }
+  const auto last = static_cast<std::int64_t>(told.size()) - 1;
+  EXPECT_NEAR(record.Time(last), 8.0, 0.1);
+  EXPECT_NEAR((told[100] - told[0]).norm(), 23.3, 1.0) << "10 m up to 3 s, then 13.3 m; the route bends";
+  EXPECT_EQ(told[130], told[150]) << "it stands";
+  EXPECT_TRUE(object.ExistsAt(last));
+  EXPECT_FALSE(object.ExistsAt(last + 1));
+  const tools::DriveSample& sample = record.samples[100];
+  EXPECT_NEAR(tools::Distance(sample, object),
+              std::hypot(sample.z[control::kX] - told[100].x(), sample.z[control::kY] - told[100].y()), 1e-9);
+}
+
+TEST_F(DriveRecordTest, DecisionsAreKeptEachWhereItWasTaken) {
+  loop::Config config = loop::LoadConfig(kDemo / "lpvmpcd.toml");
+  loop::SelectController(config, "lpv-affine");
+  DriveRecorder recorder(bus_, 0.05);
+  (void)tools::DriveClosedLoop(sim::LoadScenario(kDemo / "scenario.toml"), config,
+                               {.frame = [&](const can::Frame& frame) { recorder.Take(frame); }});
+  const DriveRecord& record = recorder.record();
+  using bus::ManoeuvreDecision;
+  ASSERT_FALSE(record.decisions.empty());
+  EXPECT_EQ(record.decisions[0].manoeuvre.decision, ManoeuvreDecision::kDrive);
+  std::set<int> passed;
+  for (std::size_t i = 0; i < record.decisions.size(); ++i) {
+    const auto& [cycle, manoeuvre] = record.decisions[i];
+    EXPECT_EQ(record.samples[static_cast<std::size_t>(cycle)].manoeuvre.object_id, manoeuvre.object_id);
+    if (i > 0) {
+      EXPECT_GT(cycle, record.decisions[i - 1].cycle);
+    }
+    if (manoeuvre.decision == ManoeuvreDecision::kPass) passed.insert(manoeuvre.object_id);
+  }
+  EXPECT_EQ(passed.size(), record.objects.size()) << "each of them is passed";
+  EXPECT_TRUE(Record(frames_).decisions.empty()) << "lpv makes none";
 }
 
 TEST_F(DriveRecordTest, PlanChangeIsTheGreatestDistanceBetweenPlansAtTheSameTime) {
@@ -221,9 +260,7 @@ TEST_F(DriveRecordTest, ThinnedKeepsWhatIsNearObstaclesAndWhatWasNotSolved) {
   std::size_t next = 0;
   for (const tools::DriveSample& sample : record.samples) {
     double distance = 1e9;
-    for (const auto& o : record.obstacles) {
-      distance = std::min(distance, std::hypot(sample.z[control::kX] - o.X, sample.z[control::kY] - o.Y));
-    }
+    for (const auto& object : record.objects) distance = std::min(distance, tools::Distance(sample, object));
     if (next < thinned.samples.size() && thinned.samples[next].cycle == sample.cycle) {
       EXPECT_EQ(thinned.samples[next].z, sample.z);
       ++next;
@@ -235,12 +272,28 @@ TEST_F(DriveRecordTest, ThinnedKeepsWhatIsNearObstaclesAndWhatWasNotSolved) {
   EXPECT_EQ(next, thinned.samples.size());
 }
 
+TEST_F(DriveRecordTest, CoarseKeepsOneInSoManyAndWhatWasNotSolved) {
+  DriveRecord record = Record(frames_);
+  record.samples[333].status.solver_status = bus::SolverStatus::kInfeasible;
+  const DriveRecord coarse = tools::Coarse(record, 10);
+  EXPECT_EQ(coarse.samples.size(), (record.samples.size() + 9) / 10 + 1);
+  EXPECT_EQ(coarse.objects.size(), record.objects.size());
+  std::size_t plans = 0, kept = 0;
+  for (const tools::DriveSample& sample : coarse.samples) {
+    EXPECT_TRUE(sample.cycle % 10 == 0 || sample.cycle == 333);
+    if (record.samples[static_cast<std::size_t>(sample.cycle)].plan.empty()) continue;
+    ++plans;
+    if (!sample.plan.empty()) ++kept;
+  }
+  EXPECT_NEAR(static_cast<double>(kept), static_cast<double>(plans) / 4.0, 1.0);
+}
+
 TEST_F(DriveRecordTest, ExcerptHoldsTheSamplesAskedForAsFarAsThereAre) {
   const DriveRecord record = Record(frames_);
   const DriveRecord excerpt = tools::Excerpt(record, 100, 110);
   ASSERT_EQ(excerpt.samples.size(), 11u);
   EXPECT_EQ(excerpt.samples[0].cycle, 100);
-  EXPECT_EQ(excerpt.obstacles.size(), record.obstacles.size());
+  EXPECT_EQ(excerpt.objects.size(), record.objects.size());
   EXPECT_EQ(tools::Excerpt(record, record.samples.size() - 2, record.samples.size() + 50).samples.size(), 2u);
 }
 

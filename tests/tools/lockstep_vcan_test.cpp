@@ -118,6 +118,31 @@ TEST_F(LockstepOnVcan, CommandsEqualThoseOfTheDriveInMemoryBitForBit) {
   }
 }
 
+TEST_F(LockstepOnVcan, DecisionsEqualThoseOfTheDriveInMemoryBitForBit) {
+  const std::filesystem::path log = folder->path() / "decisions.log";
+  ASSERT_EQ(test_support::Run({LPVMPC, "run", "--scenario", kScenario, "--log", log.string()}).status, 0);
+  const bus::VehicleBus bus;
+  const std::set<std::uint32_t> ids{bus.Info<bus::ManoeuvreStatus>().id};
+  const std::vector<can::Frame> on_bus = WithId(ReadLog(folder->path() / "candump.log"), ids);
+  const std::vector<can::Frame> in_memory = WithId(ReadLog(log), ids);
+  ASSERT_EQ(on_bus.size(), in_memory.size());
+  std::set<bus::ManoeuvreDecision> decisions;
+  for (std::size_t i = 0; i < in_memory.size(); ++i) {
+    ASSERT_TRUE(can::SameOnWire(on_bus[i], in_memory[i])) << "cycle " << i;
+    const auto message = bus.Decode(on_bus[i].id, on_bus[i].Payload());
+    decisions.insert(std::get<bus::ManoeuvreStatus>(*message).decision);
+  }
+  EXPECT_TRUE(decisions.contains(bus::ManoeuvreDecision::kDrive));
+  EXPECT_TRUE(decisions.contains(bus::ManoeuvreDecision::kPass));
+}
+
+TEST_F(LockstepOnVcan, DaemonsLogTellsEachDecisionWithItsReason) {
+  std::ifstream file(folder->path() / "lpvmpcd.log");
+  const std::string log{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  EXPECT_THAT(log, testing::HasSubstr("drives: the way is free"));
+  EXPECT_THAT(log, testing::ContainsRegex("passes object [0-9]+ on the (left|right): the way is free"));
+}
+
 TEST_F(LockstepOnVcan, SummaryTellsWhatItTellsOfTheDriveInMemory) {
   std::ifstream file(folder->path() / "summary.json");
   const nlohmann::json on_bus = nlohmann::json::parse(file);

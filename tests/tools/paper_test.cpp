@@ -33,7 +33,7 @@ TEST(FeasibilityScenarios, AreThoseOfThePaper) {
   std::vector<double> radii;
   int long_horizons = 0;
   for (const tools::FeasibilityRow& row : Ten()) {
-    const auto& obstacle = row.trust_region.record.obstacles.at(0);
+    const auto& obstacle = row.trust_region.record.objects.at(0).first;
     EXPECT_EQ(obstacle.r_x, obstacle.r_y) << row.number;
     radii.push_back(obstacle.r_x);
     const int horizon = row.trust_region.config.mpc.horizon;

@@ -107,15 +107,16 @@ class ReportPage(unittest.TestCase):
         for label in ("unsolved step", "obstacle and its margin", "short by less than a centimetre", "infeasible"):
             self.assertIn(label, labels)
         self.assertIn("N = 8, 14 steps unsolved", self.texts(".legend .detail"))
-        self.assertEqual(self.texts("th"), ["quantity", "controller", "paper", "here"])
+        self.assertEqual(self.texts("section:nth-of-type(3) th"), ["quantity", "controller", "paper", "here"])
         self.assertEqual(self.texts("td.bad"), ["✗14", "✗1"])
-        self.assertEqual(self.texts("th.number"), ["paper", "here"])
+        self.assertEqual(self.texts("section:nth-of-type(3) th.number"), ["paper", "here"])
         self.assertEqual(self.texts("td[rowspan]"), ["infeasible steps", "clearance", "mean solve time"])
-        self.assertEqual(self.texts("tbody tr:last-child .number"),
+        self.assertEqual(self.texts("section:nth-of-type(3) tbody tr:last-child .number"),
                          ["0", "✗1", "0.10 m", "✓0.08 m", "–", "9 310 µs"])
         self.assertEqual(self.texts(".tile dd.good"), ["✓0.082 m", "✓0.71 radii"])
         captions = self.texts("figcaption .name")
-        for title, times in (("Driven paths", 2), ("At obstacle 1", 2), ("At obstacle 2", 2), ("Steering angle", 2),
+        for title, times in (("Course over time: LPVMPC, trust region", 1), ("Driven paths", 2),
+                             ("At obstacle 1", 2), ("At obstacle 2", 2), ("Steering angle", 2),
                              ("Scheduling error", 1), ("Trust region", 1), ("lpv", 2)):
             self.assertEqual(sum(name.startswith(title) for name in captions), times, title)
 
@@ -140,11 +141,65 @@ class ReportPage(unittest.TestCase):
         for text in readouts + self.texts(f"{DRIVES} > figure .readout"):
             self.assertAlmostEqual(float(re.match(r"t = (\d+\.\d+) s", text)[1]), 6.0, delta=0.05)
         changed = [i for i, plot in enumerate(read_plots(self.chromium)) if plot["hash"] != before[i]]
-        self.assertEqual(changed, [0, 1, 2])  # only the planes of this section; cursors are not part of a canvas
+        self.assertEqual(changed, [0, 1, 2, 3])  # only planes and course of this section; cursors are not in a canvas
 
         self.chromium.point("h1", 0.5, 0.5)
         self.chromium.wait_for(PLANE_READOUT + " === ''", "the cursor to go")
         self.assertEqual([plot["hash"] for plot in read_plots(self.chromium)], before)
+
+    def test_the_decisions_are_listed_and_the_one_at_the_cursor_is_marked(self):
+        self.open()
+        decisions = f"{DRIVES} .decisions tbody tr"
+        self.assertEqual(self.texts(decisions), [f"{i}{d['t']:.2f}{d['decision']}{d['reason']}".replace("1 on", "1\u00a0on")
+                                                 for i, d in enumerate(report_fixture.DECISIONS, 1)])
+        self.assertEqual(self.texts(f"{decisions}.now"), [])
+        course = f"{DRIVES} .course .u-over"
+        for across, shown in ((0.2, "drives"), (0.5, "passes object 1 on the left"), (0.9, "yields to object 2")):
+            self.chromium.point(course, across, 0.5)
+            readout = f"document.querySelector('{DRIVES} .course .readout').textContent"
+            self.chromium.wait_for(f"return {readout} === {shown!r}", shown)
+            self.chromium.wait_for(f"return document.querySelector('{decisions}.now')?.textContent.replace('\u00a0', ' ')"
+                                   f".includes({shown!r})", f"the mark at {shown}")
+
+    def course_pixels(self, points):
+        """The greatest difference of colour channels, and the lightness, of the course's canvas at shares of its area."""
+        return self.chromium.run("""
+          const figure = document.querySelector(arguments[0] + " .course figure");
+          const [canvas, over] = [figure.querySelector("canvas"), figure.querySelector(".u-over")];
+          const [outer, area] = [canvas.getBoundingClientRect(), over.getBoundingClientRect()];
+          const scale = canvas.width / outer.width;
+          return arguments[1].map(([across, down]) => {
+            const x = (area.left - outer.left + across * area.width) * scale;
+            const y = (area.top - outer.top + down * area.height) * scale;
+            const [r, g, b, a] = canvas.getContext("2d").getImageData(x, y, 1, 1).data;
+            return a === 0 ? "" : `${r},${g},${b}`;
+          })""", DRIVES, points)
+
+    def test_the_course_shows_where_an_object_is_when_it_is_there(self):
+        self.open()
+        # The picture reaches from 4 % and 5 m below the first place of the vehicle to as far beyond its last one.
+        last = report_fixture.SPEED * report_fixture.T_S * (report_fixture.STEPS - 1)
+        rim = 0.04 * last + 5.0
+
+        def at(t, s):
+            return [t / (report_fixture.T_S * report_fixture.STEPS), 1.0 - (s + rim) / (last + 2.0 * rim)]
+
+        grey = "170,176,185"
+        self.assertEqual(self.course_pixels([at(1.0, 80.0), at(11.0, 80.0), at(7.0, 126.0), at(9.0, 126.0)]), [grey] * 4)
+        for pixel in self.course_pixels([at(1.0, 84.0), at(3.0, 126.0), at(11.0, 126.0)]):
+            self.assertNotEqual(pixel, grey)
+
+    def test_a_fold_is_drawn_when_it_is_opened(self):
+        self.open()
+        self.assertEqual(self.texts("details summary"), ["✗A drive for those who ask"])
+        self.assertEqual(self.texts("details figure"), [])
+        self.chromium.run("document.querySelector('details summary').click()")
+        self.chromium.wait_for("return document.querySelectorAll('details .uplot').length === 1 + 2 + 4", "its plots")
+        for plot in read_plots(self.chromium):
+            self.assertGreaterEqual(plot["coloured"], LEAST_COLOURED, plot["title"])
+        self.chromium.run("const s = document.querySelector('details summary'); s.click(); s.click()")
+        self.assertEqual(self.chromium.run("return document.querySelectorAll('details .uplot').length"), 1 + 2 + 4)
+        self.assertEqual(complaints(self.chromium), [])
 
     def metres(self, across, down):
         self.chromium.point(PLANE, across, down)
@@ -267,14 +322,26 @@ class ReportPage(unittest.TestCase):
         def of_no_shape(report):
             report["drives"]["trust"]["obstacles"][0]["shape"] = "triangle"
 
+        def of_too_few_places(report):
+            report["drives"]["trust"]["obstacles"][1]["places"]["s"].pop()
+
+        def without_reason(report):
+            del report["drives"]["trust"]["decisions"][0]["reason"]
+
+        def folded_nobody(report):
+            report["sections"][-1]["sections"][0]["drives"] = ["nobody"]
+
         def without_cells(report):
-            report["sections"][-1]["panels"][0]["cells"].pop()
+            report["sections"][-2]["panels"][0]["cells"].pop()
 
         for change, fault in ((without_steering, "drives.standard.series.delta is missing"),
                               (short, "drives.standard.series.psi is not as long as t"),
                               (of_nobody, 'sections.3. shows drive "nobody"'),
                               (off_road, 'drives.trust.road is "lane"'),
                               (of_no_shape, "drives.trust.obstacles.0..shape is of another kind"),
+                              (of_too_few_places, "drives.trust.obstacles.1..places.s is not as long as k"),
+                              (without_reason, "drives.trust.decisions.0..reason is missing"),
+                              (folded_nobody, 'sections.7..sections.0. shows drive "nobody"'),
                               (without_cells, "sections.6..panels.0..cells")):
             with self.subTest(fault):
                 report = copy.deepcopy(report_fixture.report())
@@ -297,7 +364,7 @@ class ReportPage(unittest.TestCase):
         assert_seen("new Image().src = 'http://127.0.0.1:9/x.png';", "complains")
         # An error during drawing, long after the page was built.
         assert_seen("Path2D.prototype.ellipse = () => { throw new Error('no ellipse'); };", "no ellipse")
-        report["sections"].pop()
+        report["sections"].pop(-2)  # the last section with plots
         self.assert_check_fails(self.write(report), "plots reported")
 
 

@@ -6,10 +6,19 @@ T_S = 0.05
 HORIZON = 8
 STEPS = 240
 SPEED = 12.0
-OBSTACLE = {"id": 1, "X": 78.0, "Y": 15.6, "shape": "ellipse", "r_x": 1.6, "r_y": 1.1, "heading": 0.2, "margin": 0.4,
-            "velocity_X": 0.0, "velocity_Y": 0.0}
-CROSSING = {"id": 2, "X": 127.0, "Y": 12.0, "shape": "box", "r_x": 1.8, "r_y": 0.8, "heading": 0.4, "margin": 0.3,
-            "velocity_X": -0.4, "velocity_Y": 1.0}
+OBSTACLE = {"id": 1, "shape": "ellipse", "r_x": 1.6, "r_y": 1.1, "margin": 0.4, "from": 0, "to": STEPS - 1,
+            "places": {"k": [0], "X": [78.0], "Y": [15.6], "heading": [0.2], "s": [[80.0]], "half_length": [1.6]}}
+CROSSED = range(100, 190)  # steps at which the second obstacle is on the road
+CROSSING = {"id": 2, "shape": "box", "r_x": 1.8, "r_y": 0.8, "margin": 0.3, "from": 20, "to": STEPS - 1,
+            "places": {"k": list(range(20, STEPS)),
+                       "X": [round(127.0 - 0.4 * T_S * k, 3) for k in range(20, STEPS)],
+                       "Y": [round(12.0 + 1.0 * T_S * k, 3) for k in range(20, STEPS)],
+                       "heading": [0.4] * (STEPS - 20),
+                       "s": [[126.0] if k in CROSSED else [] for k in range(20, STEPS)],
+                       "half_length": [2.5 if k in CROSSED else 0.0 for k in range(20, STEPS)]}}
+DECISIONS = [{"t": 0.05, "decision": "drives", "reason": "the way is free"},
+             {"t": 4.5, "decision": "passes object 1 on the left", "reason": "staying behind would take longer"},
+             {"t": 7.0, "decision": "yields to object 2", "reason": "an object crosses first"}]
 UNSOLVED = {"standard": set(range(118, 131)) | {140}, "trust": {160}}
 
 
@@ -38,7 +47,7 @@ def pose(k, evasion):
 
 def drive(key, name, evasion, wobble, controller="lpv"):
     poses = [pose(k, evasion) for k in range(STEPS + HORIZON + 1)]
-    series = {n: [] for n in ("t", "X", "Y", "psi", "upsilon", "upsilon_ref", "delta", "a", "solve_time",
+    series = {n: [] for n in ("t", "X", "Y", "psi", "s", "stop", "upsilon", "upsilon_ref", "delta", "a", "solve_time",
                               "scheduling_error", "active_rows", "largest_slack", "solved")}
     plans = {"k": [], "dX": [], "dY": []}
     scheduling = controller != "nmpc"
@@ -47,7 +56,7 @@ def drive(key, name, evasion, wobble, controller="lpv"):
         near = math.exp(-(((k - 128) / 20.0) ** 2))
         solved = None if k == 0 else 0 if k in UNSOLVED[key] else 1
         values = {
-            "t": k * T_S, "X": X, "Y": Y, "psi": psi,
+            "t": k * T_S, "X": X, "Y": Y, "psi": psi, "s": SPEED * T_S * k, "stop": 120.0 if k > 140 else None,
             "upsilon": SPEED - 1.4 * near + 0.1 * math.sin(k / 9.0), "upsilon_ref": SPEED,
             "delta": 0.05 * math.sin(k / 24.0) - wobble * near * math.sin(k / 3.0),
             "a": -1.8 * near * math.sin(k / 11.0),
@@ -67,7 +76,8 @@ def drive(key, name, evasion, wobble, controller="lpv"):
         plans["dY"].append([round((y - Y) * spread, 3) for _, y, _ in poses[k:k + HORIZON + 1]])
     series["upsilon"][60] = None  # a gap
     return {"name": name, "controller": controller, "horizon": HORIZON, "t_s": T_S, "road": "bend",
-            "obstacles": [OBSTACLE, CROSSING], "outline": {"front": 2.0, "rear": 2.4, "width": 1.8},
+            "obstacles": [OBSTACLE, CROSSING], "decisions": DECISIONS if key == "trust" and scheduling else [],
+            "outline": {"front": 2.0, "rear": 2.4, "width": 1.8},
             "limits": {"delta": [-0.593, 0.593], "a": [-0.45, 2.0]}, "series": series, "plans": plans}
 
 
@@ -78,7 +88,8 @@ def outcome(speed, shift, strength):
 
 
 def report():
-    """A report with two overlaid drives, one of them without scheduling too, fans, tables, tiles and maps."""
+    """A report with two overlaid drives, one of them with decisions, one without scheduling too, fans, tables, tiles, maps
+    and a fold."""
     speeds = list(range(8, 21))
     shifts = [round(0.1 * i, 1) for i in range(1, 11)]
     cells = [[[outcome(v, s, strength) for v in speeds] for s in shifts] for strength in (1.0, 1.8)]
@@ -123,8 +134,10 @@ def report():
                         {"title": "lpv, N = 8", "cells": cells[1]}],
              "marks": [{"speed": 12, "shift": 0.5, "panel": None, "label": "01"},
                        {"speed": 16.5, "shift": 0.8, "panel": 1, "label": "02"}]},
+            {"type": "fold", "title": "A drive for those who ask", "verdict": "bad", "paragraphs": ["It is closed."],
+             "sections": [{"type": "drives", "title": "", "paragraphs": [], "drives": ["nonlinear"]}]},
         ],
     }
 
 
-PLOTS = (1 + 2 + 7) + (1 + 2 + 4) + 2 + 2
+PLOTS = (1 + 2 + 1 + 7) + (1 + 2 + 4) + 2 + 2

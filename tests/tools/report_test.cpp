@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/scenario.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tools/commands/run.hpp"
 #include "tools/drive/drive_file.hpp"
@@ -30,12 +32,13 @@ std::string Read(const std::filesystem::path& file) {
 // A folder as `lpvmpc run --out` writes it.
 class ReportTest : public testing::Test {
  protected:
-  ReportTest() {
+  explicit ReportTest(const std::filesystem::path& scenario = kDemo / "scenario.toml") {
     std::ostringstream out;
     tools::RunOptions options;
-    options.scenario = kDemo / "scenario.toml";
+    options.scenario = scenario;
     options.out = run_;
     EXPECT_EQ(tools::Run(options, out), 0);
+    text_ = out.str();
   }
   void Write(const char* name, const std::string& text) const { std::ofstream(run_ / name) << text; }
   // The report's error about the folder; empty if the page was written.
@@ -60,7 +63,62 @@ class ReportTest : public testing::Test {
   test_support::TempDir folder_;
   const std::filesystem::path run_ = folder_.path() / "run";
   const std::filesystem::path page_ = folder_.path() / "page.html";
+  std::string text_;  // that the run printed
 };
+
+// A car ahead that stops and drives on three times.
+const std::filesystem::path kStopAndGo =
+    LPVMPC_SOURCE_DIR "/scenarios/catalogue/033-stop-and-go/scenario.toml";
+class TrafficReport : public ReportTest {
+ protected:
+  TrafficReport() : ReportTest(kStopAndGo) {}
+};
+
+TEST_F(TrafficReport, ObjectIsOnTheCourseWhereItTrulyWas) {
+  ASSERT_EQ(Error(), "");
+  const nlohmann::json drive = Data().at("drives").at("drive");
+  const nlohmann::json& t = drive.at("series").at("t");
+  const nlohmann::json& object = drive.at("obstacles").at(0);
+  const nlohmann::json& places = object.at("places");
+  const sim::Scenario scenario = sim::LoadScenario(kStopAndGo);
+  EXPECT_EQ(object.at("from"), 0);
+  EXPECT_EQ(object.at("to"), t.size() - 1);
+  std::size_t entry = 0;
+  double greatest_error_of_constant_speed = 0.0;
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (entry + 1 < places.at("k").size() && places.at("k").at(entry + 1) == k) ++entry;
+    const double time = t.at(k), truth = sim::StateAt(scenario.motions.at(object.at("id")), time).s;
+    if (truth > scenario.route.length()) break;
+    ASSERT_EQ(places.at("s").at(entry).size(), 1u) << time;
+    EXPECT_NEAR(places.at("s").at(entry).at(0).get<double>(), truth, 0.15) << time;
+    EXPECT_NEAR(places.at("half_length").at(entry).get<double>(), scenario.obstacles[0].r_x, 0.01);
+    const double first = sim::StateAt(scenario.motions.at(object.at("id")), 0.0).speed;
+    greatest_error_of_constant_speed =
+        std::max(greatest_error_of_constant_speed,
+                 std::abs(places.at("s").at(0).at(0).get<double>() + first * time - truth));
+  }
+  EXPECT_GT(greatest_error_of_constant_speed, 50.0) << "the test asks for real motion";
+}
+
+TEST_F(TrafficReport, DecisionsAndTheirReasonsAreThereInWordsAsTheRunPrintedThem) {
+  ASSERT_EQ(Error(), "");
+  const nlohmann::json drive = Data().at("drives").at("drive");
+  int waits = 0;
+  for (const nlohmann::json& decision : drive.at("decisions")) {
+    const std::string words =
+        fmt::format("{:7.2f} s  {}: {}\n", decision.at("t").get<double>(),
+                    decision.at("decision").get<std::string>(), decision.at("reason").get<std::string>());
+    EXPECT_THAT(text_, HasSubstr(words));
+    if (decision.at("decision") == "waits behind object 0") ++waits;
+  }
+  EXPECT_EQ(waits, 3) << "it stops three times";
+  // While it waits, it tells the line at which it stands.
+  const nlohmann::json &s = drive.at("series").at("s"), &stop = drive.at("series").at("stop");
+  std::size_t lines = 0;
+  for (std::size_t k = 0; k < s.size(); ++k) lines += stop.at(k).is_null() ? 0 : 1;
+  EXPECT_GT(lines, 300u);
+  EXPECT_LT(lines, s.size());
+}
 
 TEST_F(ReportTest, PageOfADriveHoldsItsSeriesRoadAndResult) {
   ASSERT_EQ(Error(), "");

@@ -6,8 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/catalogue/catalogue_page.hpp"
 #include "tools/catalogue/drive_catalogue.hpp"
 #include "tools/io/write_file.hpp"
+#include "tools/report/report_page.hpp"
 
 namespace tools {
 namespace {
@@ -59,8 +61,11 @@ std::string ToJson(const std::vector<CatalogueDrive>& drives) {
 }  // namespace
 
 int Catalogue(const CatalogueOptions& options, std::ostream& out) {
-  const std::vector<CatalogueDrive> drives = DriveCatalogue(options.folder, options.filter, options.jobs);
+  const bool shown = !options.report.empty();
+  const std::vector<CatalogueDrive> drives =
+      DriveCatalogue(options.folder, options.filter, options.jobs, shown);
   if (!options.json.empty()) WriteFile(options.json, ToJson(drives));
+  if (shown) WriteFile(options.report, ReportPage("Catalogue", CataloguePage(drives).dump()));
   out << ToText(drives);
   const bool failed = std::any_of(drives.begin(), drives.end(), [](const CatalogueDrive& drive) {
     return drive.outcome == CatalogueOutcome::kFailed;

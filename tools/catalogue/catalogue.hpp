@@ -14,6 +14,7 @@ struct CatalogueOptions {
   // File for an array with, for each drive, its name, description, outcome, "open" (what is known to fail), duration
   // [s] and summary (sim::ToJson); empty: none.
   std::filesystem::path json;
+  std::filesystem::path report;  // file for the page about all drives (catalogue_page.hpp); empty: none
 };
 
 // Writes a table to `out`, and below it the expectations that are not met. Returns 1 if a scenario fails that is not

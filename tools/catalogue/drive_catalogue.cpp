@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
 #include "config/text_file.hpp"
+#include "loop/assembly.hpp"
 #include "sim/scenario.hpp"
 #include "sim/summary.hpp"
+#include "tools/catalogue/catalogue_page.hpp"
 #include "tools/catalogue/open_list.hpp"
 #include "tools/drive/closed_loop.hpp"
+#include "tools/drive/drive_record.hpp"
 #include "tools/drive/scenario_config.hpp"
 #include "tools/io/process_pool.hpp"
 #include "tools/io/progress_bar.hpp"
@@ -37,13 +41,25 @@ std::vector<std::string> NamesIn(const std::filesystem::path& folder, const std:
 }
 
 // What a child process hands to its parent.
-std::string DriveOne(const std::filesystem::path& file) {
+std::string DriveOne(const std::filesystem::path& file, bool shown) {
   const sim::Scenario scenario = sim::LoadScenario(file);
-  const loop::Config config = LoadConfigFor(scenario, file, {});
-  const sim::Summary summary = DriveClosedLoop(scenario, config);
+  loop::Config config = LoadConfigFor(scenario, file, {});
+  config.loop.send_horizon = config.loop.send_horizon || shown;  // the page shows plans
+  const config::RouteFile route = config::LoadRoute(config.route);
+  std::optional<bus::VehicleBus> bus;
+  std::optional<DriveRecorder> recorder;
+  ClosedLoopHooks hooks;
+  if (shown) {
+    recorder.emplace(bus.emplace(loop::OpenBus(config)), config.mpc.t_s);
+    hooks.frame = [&recorder](const can::Frame& frame) { recorder->Take(frame); };
+  }
+  const sim::Summary summary = DriveClosedLoop(scenario, config, route, hooks);
+  const std::string part =
+      shown ? ShownDrive(recorder->record(), scenario, config, route, summary).dump() : "";
   return nlohmann::json{{"description", scenario.description},
                         {"duration", static_cast<double>(summary.steps) * config.mpc.t_s},
-                        {"summary", sim::ToJson(summary)}}
+                        {"summary", sim::ToJson(summary)},
+                        {"shown", part}}
       .dump();
 }
 
@@ -61,6 +77,7 @@ CatalogueDrive ReadDrive(const std::string& name, const std::string& text,
   drive.open = open.contains(name) ? open.at(name) : "";
   drive.summary = json.at("summary");
   drive.duration = json.at("duration");
+  drive.shown = json.at("shown");
   const nlohmann::json summary = nlohmann::json::parse(drive.summary);
   const auto figure = [&summary](const char* key) -> std::optional<double> {
     const nlohmann::json& value = summary.at(key);
@@ -93,13 +110,13 @@ const char* NameOf(CatalogueOutcome outcome) {
 }
 
 std::vector<CatalogueDrive> DriveCatalogue(const std::filesystem::path& folder, const std::string& filter,
-                                           int jobs) {
+                                           int jobs, bool shown) {
   const std::vector<std::string> names = NamesIn(folder, filter);
   const std::map<std::string, std::string> open = LoadOpenList(folder);
   ProgressBar bar(names.size());
   bar.Name("catalogue");
   const std::vector<std::string> texts = MapInProcesses(
-      names.size(), jobs, [&](std::size_t i) { return DriveOne(folder / names[i] / "scenario.toml"); },
+      names.size(), jobs, [&](std::size_t i) { return DriveOne(folder / names[i] / "scenario.toml", shown); },
       [&] { bar.Advance(); });
   std::vector<CatalogueDrive> drives;
   for (std::size_t i = 0; i < names.size(); ++i) drives.push_back(ReadDrive(names[i], texts[i], open));

@@ -31,12 +31,13 @@ struct CatalogueDrive {
   std::optional<double> max_speed_excess_mps;
   std::optional<double> rms_steering_rate;  // [rad/s]
   double duration = 0.0;                    // simulated time from engagement on [s]
+  std::string shown;                        // its part of a page (ShownDrive); "" if it is not to be shown
 };
 
 // Drives those scenarios whose folder's name contains `filter`, `jobs` at a time, each in its own process, and returns
-// them by name. Throws std::invalid_argument if there are none; config::ConfigError or std::runtime_error, with a
-// one-line message, if a file is missing or wrong.
+// them by name; with `shown`, each with its part of a page. Throws std::invalid_argument if there are none;
+// config::ConfigError or std::runtime_error, with a one-line message, if a file is missing or wrong.
 [[nodiscard]] std::vector<CatalogueDrive> DriveCatalogue(const std::filesystem::path& folder,
-                                                         const std::string& filter, int jobs);
+                                                         const std::string& filter, int jobs, bool shown);
 
 }  // namespace tools

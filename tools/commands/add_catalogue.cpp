@@ -17,7 +17,12 @@ Command AddCatalogue(CLI::App& program) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--json", options->json, "write all figures as JSON to this file");
-  return {.app = command, .run = [options] {
+  command
+      ->add_option("--report", options->report,
+                   "write a page with all drives to this HTML file; catalogue.html without a name")
+      ->expected(0, 1);
+  return {.app = command, .run = [command, options] {
+            if (command->count("--report") > 0 && options->report.empty()) options->report = "catalogue.html";
             if (options->folder.empty()) options->folder = Scenarios("catalogue");
             return Catalogue(*options, std::cout);
           }};

@@ -9,11 +9,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bus/names.hpp"
 #include "can/candump_log.hpp"
 #include "config/qp_file.hpp"
 #include "config/text_file.hpp"
+#include "loop/assembly.hpp"
 #include "tools/drive/closed_loop.hpp"
 #include "tools/drive/drive_file.hpp"
+#include "tools/drive/drive_record.hpp"
 #include "tools/drive/scenario_config.hpp"
 #include "tools/drive/sweep_config.hpp"
 #include "tools/io/write_file.hpp"
@@ -72,6 +75,15 @@ control::QpObserver Recorder(const std::filesystem::path& folder) {
   };
 }
 
+std::string DecisionsText(const DriveRecord& record) {
+  std::string text;
+  for (const RecordedDecision& decision : record.decisions) {
+    text +=
+        fmt::format("{:7.2f} s  {}\n", record.Time(decision.cycle), bus::ManoeuvreText(decision.manoeuvre));
+  }
+  return text;
+}
+
 }  // namespace
 
 int Run(const RunOptions& options, std::ostream& out) {
@@ -81,9 +93,13 @@ int Run(const RunOptions& options, std::ostream& out) {
   const bool out_folder = !options.out.empty();
   const std::filesystem::path log_file = out_folder ? options.out / "candump.log" : options.log;
   std::ofstream log;
+  const bus::VehicleBus bus = loop::OpenBus(config);
+  DriveRecorder recorder(bus, config.mpc.t_s);
   ClosedLoopHooks hooks;
+  hooks.frame = [&](const can::Frame& frame) { recorder.Take(frame); };
   if (!log_file.empty()) {
     hooks.frame = [&](const can::Frame& frame) {
+      recorder.Take(frame);
       // The log is opened only after all input was validated: a mistyped option does not overwrite an existing log.
       if (!log.is_open()) {
         if (out_folder) MakeFolder(options.out);
@@ -111,7 +127,7 @@ int Run(const RunOptions& options, std::ostream& out) {
     out << sim::ToJson(summary);
   } else {
     const double driven = static_cast<double>(summary.steps) * config.mpc.t_s;
-    out << sim::ToText(summary)
+    out << DecisionsText(recorder.record()) << sim::ToText(summary)
         << fmt::format("{:.1f} s driven in {:.3f} s, {:.0f} times real time\n", driven, elapsed.count(),
                        driven / elapsed.count());
   }

@@ -25,7 +25,8 @@ struct RunOptions {
   bool json = false;
 };
 
-// Writes the summary to `out`. Returns 0 if the scenario's expectations are met, 1 if not. Throws an exception with a
+// Writes each decision of the controller, in words and with its time since the first state, and the summary to `out`, or
+// with `json` the summary alone. Returns 0 if the scenario's expectations are met, 1 if not. Throws an exception with a
 // one-line message on bad input, before anything is written, and if a file cannot be written.
 [[nodiscard]] int Run(const RunOptions& options, std::ostream& out);
 

@@ -18,30 +18,53 @@ struct Overloaded : Handlers... {
 template <typename... Handlers>
 Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
+bool Unsolved(const DriveSample& sample) {
+  const bus::SolverStatus status = sample.status.solver_status;
+  return status != bus::SolverStatus::kNone && status != bus::SolverStatus::kSolved;
+}
+
+// The record without its samples.
+DriveRecord WithoutSamples(const DriveRecord& record) {
+  return {.t_s = record.t_s, .samples = {}, .objects = record.objects, .decisions = record.decisions};
+}
+
 }  // namespace
 
-double DriveRecord::Distance(const DriveSample& sample, const control::Obstacle& obstacle) const {
-  const double t = Time(sample);
-  return std::hypot(sample.z[control::kX] - obstacle.X - t * obstacle.velocity_X,
-                    sample.z[control::kY] - obstacle.Y - t * obstacle.velocity_Y);
+const RecordedObject::Place& RecordedObject::At(std::int64_t cycle) const {
+  const auto later = std::ranges::upper_bound(places, cycle, {}, &Place::cycle);
+  return later == places.begin() ? places.front() : *(later - 1);
+}
+
+double Distance(const DriveSample& sample, const RecordedObject& object) {
+  const RecordedObject::Place& place = object.At(sample.cycle);
+  return std::hypot(sample.z[control::kX] - place.X, sample.z[control::kY] - place.Y);
 }
 
 DriveRecord Thinned(const DriveRecord& record) {
   constexpr double kNear = 25.0;  // [m]
   constexpr std::size_t kOneIn = 4;
-  DriveRecord thinned{.t_s = record.t_s, .samples = {}, .obstacles = record.obstacles};
+  DriveRecord thinned = WithoutSamples(record);
   for (std::size_t k = 0; k < record.samples.size(); ++k) {
     const DriveSample& sample = record.samples[k];
-    const bool near = std::ranges::any_of(record.obstacles, [&](const control::Obstacle& obstacle) {
-      return record.Distance(sample, obstacle) < kNear;
+    const bool near = std::ranges::any_of(record.objects, [&](const RecordedObject& object) {
+      return object.ExistsAt(sample.cycle) && Distance(sample, object) < kNear;
     });
-    const bus::SolverStatus status = sample.status.solver_status;
-    const bool unsolved = status != bus::SolverStatus::kNone && status != bus::SolverStatus::kSolved;
-    if (k % kOneIn != 0 && !near && !unsolved) continue;
+    if (k % kOneIn != 0 && !near && !Unsolved(sample)) continue;
     thinned.samples.push_back(sample);
     if (!near) thinned.samples.back().plan.clear();
   }
   return thinned;
+}
+
+DriveRecord Coarse(const DriveRecord& record, std::size_t one_in) {
+  constexpr std::size_t kPlanOneIn = 4;
+  DriveRecord coarse = WithoutSamples(record);
+  for (std::size_t k = 0; k < record.samples.size(); ++k) {
+    if (k % one_in != 0 && !Unsolved(record.samples[k])) continue;
+    coarse.samples.push_back(record.samples[k]);
+    if (coarse.samples.size() % kPlanOneIn != 1) coarse.samples.back().plan.clear();
+  }
+  return coarse;
 }
 
 double LargestPlanChange(const DriveRecord& record) {
@@ -65,7 +88,7 @@ std::size_t SampleOfStep(const DriveRecord& record, int step) {
 }
 
 DriveRecord Excerpt(const DriveRecord& record, std::size_t from, std::size_t to) {
-  DriveRecord excerpt{.t_s = record.t_s, .samples = {}, .obstacles = record.obstacles};
+  DriveRecord excerpt = WithoutSamples(record);
   for (std::size_t k = from; k <= to && k < record.samples.size(); ++k)
     excerpt.samples.push_back(record.samples[k]);
   return excerpt;
@@ -99,31 +122,45 @@ void DriveRecorder::AddSampleIfWhole(std::uint8_t counter, can::Time time) {
   sample.cycle = cycle;
   sample.z << pose_.X, pose_.Y, motion_.upsilon, motion_.nu, feedback_.psi, motion_.omega;
   sample.u << feedback_.delta, feedback_.acceleration;
-  status_received_ = health_received_ = plan_wanted_ = false;
+  PlaceObjects(cycle);
+  status_received_ = health_received_ = manoeuvre_received_ = plan_wanted_ = false;
 }
 
-// The motion follows the obstacle's position; the velocity allows moving the position back to cycle 0.
-void DriveRecorder::TakeMotion(const bus::ObstacleMotion& motion) {
-  const int id = motion.object_id;
-  const auto obstacle = std::ranges::find(record_.obstacles, id, &control::Obstacle::id);
-  if (obstacle == record_.obstacles.end() ||
-      std::ranges::find(moving_received_, id) != moving_received_.end())
-    return;
-  moving_received_.push_back(id);
-  // Obstacles are sent before the state set of their cycle.
-  const double t = record_.samples.empty() ? 0.0 : record_.Time(record_.samples.back()) + record_.t_s;
-  obstacle->velocity_X = motion.velocity_X;
-  obstacle->velocity_Y = motion.velocity_Y;
-  obstacle->object_class = loop::ToControl(motion.object_class);
-  obstacle->X -= t * motion.velocity_X;
-  obstacle->Y -= t * motion.velocity_Y;
+control::Obstacle& DriveRecorder::Reported(int id) {
+  const auto reported = std::ranges::find(reported_, id, &control::Obstacle::id);
+  if (reported != reported_.end()) return *reported;
+  const auto known =
+      std::ranges::find(record_.objects, id, [](const RecordedObject& object) { return object.first.id; });
+  return reported_.emplace_back(known != record_.objects.end() ? known->first : control::Obstacle{.id = id});
+}
+
+// Objects are reported before the state set of their cycle.
+void DriveRecorder::PlaceObjects(std::int64_t cycle) {
+  for (const control::Obstacle& reported : reported_) {
+    auto object = std::ranges::find(record_.objects, reported.id,
+                                    [](const RecordedObject& known) { return known.first.id; });
+    if (object == record_.objects.end()) {
+      record_.objects.push_back({.first = reported, .places = {}});
+      object = record_.objects.end() - 1;
+    }
+    object->places.push_back({.cycle = cycle, .X = reported.X, .Y = reported.Y, .heading = reported.heading});
+  }
+  reported_.clear();
+}
+
+void DriveRecorder::TakeManoeuvre(const bus::ManoeuvreStatus& manoeuvre, DriveSample& sample) {
+  if (manoeuvre_received_) return;
+  manoeuvre_received_ = true;
+  sample.manoeuvre = manoeuvre;
+  if (!bus::Drives(sample.status.mode)) {
+    decision_.Reset();
+  } else if (decision_.Take(manoeuvre)) {
+    record_.decisions.push_back({.cycle = sample.cycle - decision_.held() + 1, .manoeuvre = manoeuvre});
+  }
 }
 
 void DriveRecorder::TakeMessage(const bus::Message& message, std::uint8_t counter, can::Time time) {
   DriveSample* const sample = record_.samples.empty() ? nullptr : &record_.samples.back();
-  const auto find = [this](int id) {
-    return std::ranges::find(record_.obstacles, id, &control::Obstacle::id);
-  };
   std::visit(Overloaded{
                  [&](const bus::VehiclePose& pose) {
                    pose_ = pose;
@@ -141,18 +178,23 @@ void DriveRecorder::TakeMessage(const bus::Message& message, std::uint8_t counte
                    AddSampleIfWhole(counter, time);
                  },
                  [&](const bus::ObstaclePosition& position) {
-                   if (find(position.object_id) != record_.obstacles.end()) return;
-                   record_.obstacles.push_back({.id = position.object_id, .X = position.X, .Y = position.Y});
+                   control::Obstacle& object = Reported(position.object_id);
+                   object.X = position.X;
+                   object.Y = position.Y;
                  },
                  [&](const bus::ObstacleShape& shape) {
-                   const auto obstacle = find(shape.object_id);
-                   if (obstacle == record_.obstacles.end()) return;
-                   obstacle->r_x = shape.semi_axis_x;
-                   obstacle->r_y = shape.semi_axis_y;
-                   obstacle->heading = shape.heading;
-                   obstacle->shape = loop::ToControl(shape.outline);
+                   control::Obstacle& object = Reported(shape.object_id);
+                   object.r_x = shape.semi_axis_x;
+                   object.r_y = shape.semi_axis_y;
+                   object.heading = shape.heading;
+                   object.shape = loop::ToControl(shape.outline);
                  },
-                 [&](const bus::ObstacleMotion& motion) { TakeMotion(motion); },
+                 [&](const bus::ObstacleMotion& motion) {
+                   control::Obstacle& object = Reported(motion.object_id);
+                   object.velocity_X = motion.velocity_X;
+                   object.velocity_Y = motion.velocity_Y;
+                   object.object_class = loop::ToControl(motion.object_class);
+                 },
                  [&](const bus::ControllerStatus& status) {
                    if (sample == nullptr || status_received_) return;
                    sample->status = status;
@@ -162,6 +204,9 @@ void DriveRecorder::TakeMessage(const bus::Message& message, std::uint8_t counte
                    if (sample == nullptr || health_received_) return;
                    sample->health = health;
                    health_received_ = true;
+                 },
+                 [&](const bus::ManoeuvreStatus& manoeuvre) {
+                   if (sample != nullptr) TakeManoeuvre(manoeuvre, *sample);
                  },
                  [&](const bus::HorizonHeader& header) {
                    plan_wanted_ =

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "bus/decision_change.hpp"
 #include "bus/vehicle_bus.hpp"
 #include "can/frame.hpp"
 #include "control/vehicle/types.hpp"
@@ -19,24 +20,56 @@ struct DriveSample {
   control::Input u = control::Input::Zero();  // measured δ [rad] and a [m/s²]
   bus::ControllerStatus status;               // mode Init if none was received
   bus::SchedulingHealth health;
+  bus::ManoeuvreStatus manoeuvre;
   std::vector<Eigen::Vector2d> plan;  // planned positions of steps 0..N [m]; empty if no plan was received
+};
+
+// An object as the perception reported it, before one state set after the other.
+struct RecordedObject {
+  struct Place {
+    std::int64_t cycle = 0;  // of the state set
+    double X = 0.0;
+    double Y = 0.0;
+    double heading = 0.0;
+  };
+
+  control::Obstacle first;    // as first reported
+  std::vector<Place> places;  // in the order of their cycles; at least one
+
+  // Whether it had been reported by this cycle and still was later, or in it.
+  [[nodiscard]] bool ExistsAt(std::int64_t cycle) const {
+    return places.front().cycle <= cycle && cycle <= places.back().cycle;
+  }
+  // Where it was last reported by this cycle; before it was, where it was first.
+  [[nodiscard]] const Place& At(std::int64_t cycle) const;
+};
+
+// A decision of the controller that differs from the one before, and held (bus/decision_change.hpp).
+struct RecordedDecision {
+  std::int64_t cycle = 0;  // from which on it was taken
+  bus::ManoeuvreStatus manoeuvre;
 };
 
 struct DriveRecord {
   double t_s = 0.05;  // duration of a cycle [s]
   std::vector<DriveSample> samples;
-  std::vector<control::Obstacle> obstacles;  // as first received, positions moved back to cycle 0
+  std::vector<RecordedObject> objects;  // by the order of their first reports
+  std::vector<RecordedDecision> decisions;
 
-  [[nodiscard]] double Time(const DriveSample& sample) const {
-    return t_s * static_cast<double>(sample.cycle);
-  }
-  // Distance from the vehicle to the obstacle's centre at the sample's time [m].
-  [[nodiscard]] double Distance(const DriveSample& sample, const control::Obstacle& obstacle) const;
+  [[nodiscard]] double Time(std::int64_t cycle) const { return t_s * static_cast<double>(cycle); }
+  [[nodiscard]] double Time(const DriveSample& sample) const { return Time(sample.cycle); }
 };
 
-// A smaller record for a page: one sample in four, plus all within 25 m of an obstacle and all whose problem was not
-// solved. Plans are kept only near obstacles.
+// Distance from the vehicle to the object's centre when the sample was taken [m].
+[[nodiscard]] double Distance(const DriveSample& sample, const RecordedObject& object);
+
+// A smaller record for a page: one sample in four, plus all within 25 m of an object and all whose problem was not
+// solved. Plans are kept only near objects.
 [[nodiscard]] DriveRecord Thinned(const DriveRecord& record);
+
+// A still smaller record: one sample in `one_in`, plus all whose problem was not solved. Only one sample in four of them
+// keeps its plan.
+[[nodiscard]] DriveRecord Coarse(const DriveRecord& record, std::size_t one_in);
 
 // The greatest distance between the positions that the plans of two consecutive cycles predict for the same time [m]; 0
 // if there are no such plans.
@@ -72,7 +105,10 @@ class DriveRecorder {
 
   void TakeMessage(const bus::Message& message, std::uint8_t counter, can::Time time);
   void AddSampleIfWhole(std::uint8_t counter, can::Time time);
-  void TakeMotion(const bus::ObstacleMotion& motion);
+  // The object with this id among those reported since the last state set.
+  [[nodiscard]] control::Obstacle& Reported(int id);
+  void TakeManoeuvre(const bus::ManoeuvreStatus& manoeuvre, DriveSample& sample);
+  void PlaceObjects(std::int64_t cycle);
 
   const bus::VehicleBus* bus_;
   DriveRecord record_;
@@ -81,9 +117,11 @@ class DriveRecorder {
   bus::VehicleFeedback feedback_;
   StatePart part_;
   std::optional<LastSet> last_;
-  std::vector<int> moving_received_;  // ids of the obstacles whose motion was received
-  bool status_received_ = false;      // for the last sample; a later status answers the timer
+  std::vector<control::Obstacle> reported_;  // since the last state set
+  bus::DecisionChange decision_;
+  bool status_received_ = false;  // for the last sample; a later status answers the timer
   bool health_received_ = false;
+  bool manoeuvre_received_ = false;
   bool plan_wanted_ = false;  // the last header belongs to the last sample's plan
 };
 

@@ -1,7 +1,8 @@
 // Checks the report's data (tools/report/report_page.hpp) before anything is drawn. Returns the faults, one line each.
-const seriesNames = ["X", "Y", "psi", "upsilon", "upsilon_ref", "delta", "a", "solve_time", "scheduling_error",
+const seriesNames = ["X", "Y", "psi", "s", "stop", "upsilon", "upsilon_ref", "delta", "a", "solve_time", "scheduling_error",
                      "active_rows", "largest_slack", "solved"];
-const obstacleNames = ["X", "Y", "r_x", "r_y", "heading", "margin", "velocity_X", "velocity_Y"];
+const obstacleNames = ["r_x", "r_y", "margin"];
+const placeNames = ["X", "Y", "heading", "s", "half_length"];
 const sectionMembers = {
   text: {paragraphs: Array.isArray},
   figures: {paragraphs: Array.isArray, items: Array.isArray},
@@ -10,6 +11,7 @@ const sectionMembers = {
   fans: {paragraphs: Array.isArray, fans: Array.isArray},
   map: {paragraphs: Array.isArray, speeds: Array.isArray, shifts: Array.isArray, panels: Array.isArray,
         marks: Array.isArray},
+  fold: {paragraphs: Array.isArray, verdict: value => ["good", "bad", ""].includes(value), sections: Array.isArray},
 };
 const isText = value => typeof value === "string";
 const isShape = value => value === "ellipse" || value === "box";
@@ -39,33 +41,34 @@ function checkReport(report) {
   for (const [key, drive] of Object.entries(report.drives)) {
     checkDrive(drive, `drives.${key}`, report, {expect, members, line});
   }
-  report.sections.forEach((section, i) => {
-    const where = `sections[${i}]`;
-    members(section, where, {title: isText});
-    const kinds = sectionMembers[section.type];
-    if (!kinds) return expect(false, `${where}.type is ${JSON.stringify(section.type)}`);
-    members(section, where, kinds);
-    for (const key of section.drives ?? section.fans?.map(fan => fan.drive) ?? []) {
-      expect(key in report.drives, `${where} shows drive ${JSON.stringify(key)}, which is not there`);
-    }
-    section.rows?.forEach((row, r) => {
-      expect(row.length === section.columns?.length, `${where}.rows[${r}] has ${row.length} cells`);
-    });
-    if (section.type === "map") checkMap(section, where, expect);
-  });
+  report.sections.forEach((section, i) => checkSection(section, `sections[${i}]`, report, {expect, members}));
   return faults;
+}
+
+function checkSection(section, where, report, {expect, members}) {
+  members(section, where, {title: isText});
+  const kinds = sectionMembers[section.type];
+  if (!kinds) return expect(false, `${where}.type is ${JSON.stringify(section.type)}`);
+  members(section, where, kinds);
+  for (const key of section.drives ?? section.fans?.map(fan => fan.drive) ?? []) {
+    expect(key in report.drives, `${where} shows drive ${JSON.stringify(key)}, which is not there`);
+  }
+  section.rows?.forEach((row, r) => {
+    expect(row.length === section.columns?.length, `${where}.rows[${r}] has ${row.length} cells`);
+  });
+  section.sections?.forEach((inner, i) => checkSection(inner, `${where}.sections[${i}]`, report, {expect, members}));
+  if (section.type === "map") checkMap(section, where, expect);
 }
 
 function checkDrive(drive, where, report, {expect, members, line}) {
   members(drive, where, {name: isText, controller: isText, horizon: Number.isInteger, t_s: Number.isFinite,
-                         obstacles: Array.isArray, outline: isObject, limits: isObject, series: isObject});
+                         obstacles: Array.isArray, decisions: Array.isArray, outline: isObject, limits: isObject,
+                         series: isObject});
   expect(drive.road in report.roads, `${where}.road is ${JSON.stringify(drive.road)}, which is not there`);
   members(drive.outline, `${where}.outline`, {front: Number.isFinite, rear: Number.isFinite, width: Number.isFinite});
   members(drive.limits, `${where}.limits`, {delta: isRange, a: isRange});
-  drive.obstacles?.forEach((obstacle, i) => {
-    members(obstacle, `${where}.obstacles[${i}]`, {
-      shape: isShape, ...Object.fromEntries(obstacleNames.map(key => [key, Number.isFinite])),
-    });
+  drive.decisions?.forEach((decision, i) => {
+    members(decision, `${where}.decisions[${i}]`, {t: Number.isFinite, decision: isText, reason: isText});
   });
   const t = drive.series?.t;
   if (!Array.isArray(t) || t.length === 0 || !t.every(Number.isFinite)) {
@@ -77,6 +80,7 @@ function checkDrive(drive, where, report, {expect, members, line}) {
     const whole = Array.isArray(series) && series.length === t.length;
     expect(whole, `${where}.series.${name} is ${Array.isArray(series) ? "not as long as t" : "missing"}`);
   }
+  drive.obstacles?.forEach((obstacle, i) => checkObstacle(obstacle, `${where}.obstacles[${i}]`, t, {expect, members}));
   if (!("plans" in drive)) return;
   const {k, dX, dY} = drive.plans;
   const whole = Array.isArray(k) && k.length === dX?.length && k.length === dY?.length;
@@ -85,6 +89,20 @@ function checkDrive(drive, where, report, {expect, members, line}) {
     expect(step in t, `${where}.plans.k[${i}] is no index of the series`);
     line({X: dX?.[i], Y: dY?.[i]}, `${where}.plans[${i}]`);
   });
+}
+
+function checkObstacle(obstacle, where, t, {expect, members}) {
+  const isIndex = value => value in t;
+  members(obstacle, where, {
+    shape: isShape, from: isIndex, to: isIndex, places: isObject,
+    ...Object.fromEntries(obstacleNames.map(key => [key, Number.isFinite])),
+  });
+  const {k} = obstacle.places ?? {};
+  const rises = Array.isArray(k) && k.every((step, i) => isIndex(step) && (i === 0 || step > k[i - 1]));
+  if (!rises || k[0] !== obstacle.from) return expect(false, `${where}.places.k does not rise from .from on`);
+  for (const name of placeNames) {
+    expect(obstacle.places[name]?.length === k.length, `${where}.places.${name} is not as long as k`);
+  }
 }
 
 function checkMap(section, where, expect) {

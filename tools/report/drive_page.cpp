@@ -74,14 +74,14 @@ ordered_json SummarySection(const ordered_json& summary) {
 ordered_json FansSection(const DriveRecord& record, int horizon) {
   constexpr std::size_t kFans = 3, kBefore = 4, kSteps = 12;
   ordered_json fans = ordered_json::array();
-  for (const control::Obstacle& obstacle : record.obstacles) {
+  for (const RecordedObject& object : record.objects) {
     if (fans.size() == kFans) break;
-    const auto distance = [&](const DriveSample& sample) { return record.Distance(sample, obstacle); };
+    const auto distance = [&](const DriveSample& sample) { return Distance(sample, object); };
     const auto nearest = static_cast<std::size_t>(std::ranges::min_element(record.samples, {}, distance) -
                                                   record.samples.begin());
     const std::size_t lead = static_cast<std::size_t>(horizon) + kBefore;
     const std::size_t from = nearest > lead ? nearest - lead : 0;
-    fans.push_back({{"title", fmt::format("obstacle {}", obstacle.id)},
+    fans.push_back({{"title", fmt::format("obstacle {}", object.first.id)},
                     {"drive", "drive"},
                     {"from", from},
                     {"to", std::min(from + kSteps, record.samples.size() - 1)}});
@@ -126,7 +126,7 @@ ordered_json DrivePage(const std::filesystem::path& run_dir) {
        {"drives", {"drive"}}});
   const bool has_plans =
       std::ranges::any_of(record.samples, [](const DriveSample& s) { return !s.plan.empty(); });
-  if (!record.obstacles.empty() && has_plans)
+  if (!record.objects.empty() && has_plans)
     sections.push_back(FansSection(record, loop::HorizonOf(drive.config)));
   return {
       {"title", drive.scenario.name},

@@ -65,24 +65,44 @@ function drivesLegend(drives) {
   ]);
 }
 
-// The part of the plane shown around an obstacle: it and the drives within 14 m of it, a swerve at city speed.
-function boxAtObstacle(obstacle, drives) {
-  const paths = drives.map(drive => {
-    const {X, Y} = placedAt(obstacle, drive, closestSample(drive, obstacle));
-    const near = (x, k) => Math.hypot(x - X, drive.series.Y[k] - Y) < 14;
+// The obstacles that a drive came near to, the nearest six, in the order of the data: {id, seen, distance} each, where
+// `seen` holds the obstacle as each drive saw it, as {drive, obstacle}.
+function obstaclesMet(drives) {
+  const all = new Map();
+  for (const drive of drives) {
+    for (const obstacle of drive.obstacles) {
+      const key = obstacleKey(obstacle);
+      const met = all.get(key) ?? {id: obstacle.id, seen: [], distance: Infinity};
+      met.seen.push({drive, obstacle});
+      met.distance = Math.min(met.distance, closest(drive, obstacle)?.distance ?? 0);
+      all.set(key, met);
+    }
+  }
+  const met = [...all.values()].filter(({distance}) => distance < nearObstacle);
+  const nearest = [...met].sort((a, b) => a.distance - b.distance).slice(0, 6);
+  return met.filter(obstacle => nearest.includes(obstacle));
+}
+
+// The part of the plane shown around an obstacle: it and the drives near it.
+function boxAtObstacle({seen}) {
+  const paths = seen.map(({drive, obstacle}) => {
+    const {X, Y} = placedAt(obstacle, closestSample(drive, obstacle));
+    const near = (x, k) => Math.hypot(x - X, drive.series.Y[k] - Y) < nearObstacle;
     return {X: drive.series.X.map((x, k) => near(x, k) ? x : null), Y: drive.series.Y};
   });
-  return boxAbout([...paths, ...drives.map(drive => extentOf(obstacle, drive))], 1.5);
+  return boxAbout([...paths, ...extentsOf(seen)], 1.5);
 }
+
+const nearObstacle = 14;   // [m], a swerve at city speed
+const extentsOf = seen => seen.map(({drive, obstacle}) => extentOf(obstacle, drive));
 
 // The planes of a section, {title, hint, box} each: first that of the whole drives, then one for each obstacle.
 function planesOf(drives) {
-  const obstacles = drives.flatMap(drive => drive.obstacles.map(obstacle => [JSON.stringify(obstacle), obstacle]));
-  const extents = drives.flatMap(drive => drive.obstacles.map(obstacle => extentOf(obstacle, drive)));
+  const met = obstaclesMet(drives);
+  const extents = met.flatMap(({seen}) => extentsOf(seen));
   return [
     {title: "Driven paths", hint: xyHint, box: boxAbout([...drives.map(drive => drive.series), ...extents], 6)},
-    ...[...new Map(obstacles).values()].map(obstacle =>
-      ({title: `At obstacle ${obstacle.id}`, hint: "", box: boxAtObstacle(obstacle, drives)})),
+    ...met.map(obstacle => ({title: `At obstacle ${obstacle.id}`, hint: "", box: boxAtObstacle(obstacle)})),
   ];
 }
 
@@ -96,8 +116,14 @@ function addDrives(report, section, body, index) {
     if (scheduling) frame.figure.classList.add("third");
     return frame;
   });
+  const deciding = drives.filter(({decisions}) => decisions.length > 0).map(drive => {
+    const name = drives.length > 1 ? `: ${drive.name}` : "";
+    return {drive, frame: plotFigure(`Course over time${name}`), list: decisionList(drive)};
+  });
   body.append(drivesLegend(drives), whole.figure,
               element("div", {class: "panels"}, ...near.map(frame => frame.figure)),
+              ...deciding.flatMap(({drive, frame, list}) => [
+                courseLegend(drive), element("div", {class: "course"}, frame.figure, list.root)]),
               element("div", {class: "plots"}, ...frames.map(frame => frame.figure)));
 
   let time = null;
@@ -117,9 +143,16 @@ function addDrives(report, section, body, index) {
       due = false;
       for (const plane of mounted) plane.redraw(false, false);
       whole.readout.textContent = time === null ? "" : `t = ${number(time, 2)} s`;
+      for (const redraw of courses) redraw(time);
     });
   };
   const times = drives.flatMap(({series, t_s}) => [series.t[0], series.t.at(-1) + t_s]);
   const span = [Math.min(...times), Math.max(...times)];
-  shown.forEach((quantity, i) => mountTimePlot(frames[i], quantity, drives, {sync: `section-${index}`, span, moved}));
+  const sync = `section-${index}`;
+  const courses = deciding.map(({drive, frame, list}) => {
+    const own = driveColor(drives.indexOf(drive));
+    const redraw = mountCourse(frame, report.roads[drive.road], drive, own, {sync, span, moved});
+    return t => { redraw(t); list.mark(t); };
+  });
+  shown.forEach((quantity, i) => mountTimePlot(frames[i], quantity, drives, {sync, span, moved}));
 }

@@ -3,12 +3,24 @@ const sectionBuilders = {
   text() {}, figures: addFigures, table: addTable, drives: addDrives, fans: addFans, map: addMap,
 };
 
-function addSection(report, section, index) {
+function addSection(report, section, index, parent = document.querySelector("main")) {
+  if (section.type === "fold") return addFold(report, section, index, parent);
   const heading = section.title === "" ? [] : [element("h2", {}, section.title)];
   const paragraphs = section.paragraphs.map(text => element("p", {}, unbroken(text)));
   const body = element("section", section.title === "" ? {class: "untitled"} : {}, ...heading, ...paragraphs);
-  document.querySelector("main").append(body);
+  parent.append(body);
   sectionBuilders[section.type](report, section, body, index);
+}
+
+// Sections that are shown, and drawn, only once the reader asks for them.
+function addFold(report, {title, verdict, paragraphs, sections}, index, parent) {
+  const summary = element("summary", {class: verdict}, ...verdictMark(verdict), element("h2", {}, title));
+  const fold = element("details", {class: "fold"}, summary,
+                       ...paragraphs.map(text => element("p", {}, unbroken(text))));
+  fold.addEventListener("toggle", () => {
+    sections.forEach((section, i) => addSection(report, section, `${index}-${i}`, fold));
+  }, {once: true});
+  parent.append(fold);
 }
 
 function redrawAll() {
@@ -35,7 +47,7 @@ function buildPage() {
   }
   document.querySelector("main").append(element("header", {}, element("h1", {}, report.title),
     ...(report.subtitle ? [element("p", {class: "subtitle"}, report.subtitle)] : [])));
-  report.sections.forEach((section, index) => addSection(report, section, index));
+  report.sections.forEach((section, index) => addSection(report, section, String(index)));
 
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redrawAll);
   window.addEventListener("beforeprint", () => setPrinting(true));

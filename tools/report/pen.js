@@ -45,6 +45,28 @@ function makePen(plot) {
       finish(path, style);
     },
 
+    // Closed areas, each a list of corners [X, Y], filled as one.
+    areas(areas, style) {
+      const path = new Path2D();
+      for (const corners of areas) {
+        corners.forEach(([x, y], i) => i === 0 ? path.moveTo(...at(x, y)) : path.lineTo(...at(x, y)));
+        path.closePath();
+      }
+      finish(path, style);
+    },
+
+    // `shift`: across and down, `size`: of the font, in CSS pixels.
+    text(X, Y, text, {color: ink, align = "left", size = 11, shift = [0, 0]}) {
+      const [left, top] = at(X, Y);
+      ctx.save();
+      ctx.font = font(size * uPlot.pxRatio, 600);
+      ctx.textAlign = align;
+      ctx.textBaseline = "middle";
+      ctx.fillStyle = ink;
+      ctx.fillText(text, left + shift[0] * uPlot.pxRatio, top + shift[1] * uPlot.pxRatio);
+      ctx.restore();
+    },
+
     dots(X, Y, radius, style) {
       const path = new Path2D();
       X.forEach((x, i) => {

@@ -7,7 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bus/names.hpp"
 #include "control/road/projection.hpp"
+#include "tools/report/object_data.hpp"
+#include "tools/report/rounded.hpp"
 
 namespace tools {
 namespace {
@@ -17,12 +20,6 @@ using nlohmann::ordered_json;
 // Overhang beyond each axle and width of a mid-size car [m].
 constexpr double kOverhang = 0.9;
 constexpr double kWidth = 1.8;
-
-// Rounds to the decimals that are visible in a plot.
-double Rounded(double value, int decimals) {
-  const double scale = std::pow(10.0, decimals);
-  return std::round(value * scale) / scale;
-}
 
 // One series over all samples; null where `value` returns NaN.
 template <typename Value>
@@ -50,6 +47,34 @@ ordered_json OutlineData(const control::Footprint& footprint, const control::Veh
   return {{"front", vehicle.l_f + kOverhang}, {"rear", vehicle.l_r + kOverhang}, {"width", kWidth}};
 }
 
+// The arc length of the course beside the vehicle at each sample [m]. Each is searched near the one before, the first near
+// the start if that is not much farther from the vehicle than any other part of the course: a circuit ends where it begins.
+std::vector<double> Progress(const DriveRecord& record, const control::Route& route) {
+  constexpr double kFarther = 1.0;  // [m]
+  std::vector<double> progress;
+  for (const DriveSample& sample : record.samples) {
+    const Eigen::Vector2d position(sample.z[control::kX], sample.z[control::kY]);
+    const control::RouteProjection near = route.Project(position, progress.empty() ? 0.0 : progress.back());
+    double s = near.s;
+    if (progress.empty()) {
+      const control::RouteProjection nearest = route.Project(position);
+      if (std::abs(near.lateral) > std::abs(nearest.lateral) + kFarther) s = nearest.s;
+    }
+    progress.push_back(s);
+  }
+  return progress;
+}
+
+ordered_json DecisionsData(const DriveRecord& record) {
+  ordered_json decisions = ordered_json::array();
+  for (const RecordedDecision& decision : record.decisions) {
+    decisions.push_back({{"t", Rounded(record.Time(decision.cycle), 2)},
+                         {"decision", bus::DecisionText(decision.manoeuvre)},
+                         {"reason", bus::Name(decision.manoeuvre.reason)}});
+  }
+  return decisions;
+}
+
 ordered_json SeriesData(const DriveRecord& record, const loop::Config& config,
                         const config::RouteFile& road) {
   ordered_json series;
@@ -59,11 +84,17 @@ ordered_json SeriesData(const DriveRecord& record, const loop::Config& config,
   series["Y"] = Series(record, 2, state(control::kY));
   series["psi"] = Series(record, 3, state(control::kPsi));
   series["upsilon"] = Series(record, 2, state(control::kUpsilon));
-  std::optional<double> hint;
-  series["upsilon_ref"] = Series(record, 2, [&](const DriveSample& s) {
-    hint = road.route.Project({s.z[control::kX], s.z[control::kY]}, hint).s;
-    return road.route.At(*hint).speed;
+  const std::vector<double> progress = Progress(record, road.route);
+  const auto place = [&](const DriveSample& s) {
+    return progress[static_cast<std::size_t>(&s - record.samples.data())];
+  };
+  series["s"] = Series(record, 1, place);
+  series["stop"] = Series(record, 1, [&](const DriveSample& s) {
+    const bool stops = s.manoeuvre.stop_distance < bus::ManoeuvreStatus{}.stop_distance;
+    return stops ? place(s) + s.manoeuvre.stop_distance : std::nan("");
   });
+  series["upsilon_ref"] =
+      Series(record, 2, [&](const DriveSample& s) { return road.route.At(place(s)).speed; });
   series["delta"] = Series(record, 4, [](const DriveSample& s) { return s.u[control::kDelta]; });
   series["a"] = Series(record, 3, [](const DriveSample& s) { return s.u[control::kAcceleration]; });
   series["solve_time"] =
@@ -129,26 +160,14 @@ ordered_json RoadData(const config::RouteFile& road) {
 
 ordered_json DriveData(const DriveRecord& record, const DriveLabel& label, const loop::Config& config,
                        const config::RouteFile& road) {
-  ordered_json obstacles = ordered_json::array();
-  for (const control::Obstacle& o : record.obstacles) {
-    obstacles.push_back({{"id", o.id},
-                         {"X", o.X},
-                         {"Y", o.Y},
-                         {"shape", o.shape == control::ObstacleShape::kBox ? "box" : "ellipse"},
-                         {"r_x", o.r_x},
-                         {"r_y", o.r_y},
-                         {"heading", o.heading},
-                         {"margin", loop::ObstacleMarginOf(config)},
-                         {"velocity_X", o.velocity_X},
-                         {"velocity_Y", o.velocity_Y}});
-  }
   const control::Input &lo = config.mpc.u_min, &hi = config.mpc.u_max;
   return {{"name", label.name},
           {"controller", loop::ControllerName(config.controller)},
           {"horizon", loop::HorizonOf(config)},
           {"t_s", config.mpc.t_s},
           {"road", label.road_key},
-          {"obstacles", obstacles},
+          {"obstacles", ObjectsData(record, loop::ObstacleMarginOf(config), road)},
+          {"decisions", DecisionsData(record)},
           {"outline", OutlineData(label.footprint, config.vehicle)},
           {"limits",
            {{"delta", {Rounded(lo[control::kDelta], 4), Rounded(hi[control::kDelta], 4)}},

@@ -9,13 +9,19 @@
 //
 // DRIVE:
 //   {"name": "...", "controller": "lpv", "horizon": N, "t_s": period [s], "road": KEY,
-//    "obstacles": [{"id", "X", "Y" [m], "shape": "ellipse" | "box", "r_x", "r_y" [m], "heading" [rad],
-//                   "margin" [m], "velocity_X", "velocity_Y" [m/s]}, ...]   positions at t = 0
+//    "obstacles": [{"id", "shape": "ellipse" | "box", "r_x", "r_y" [m], "margin" [m],
+//                   "from", "to": first and last index into the series at which it was there,
+//                   "places": {"k": [index, ...], rising from "from" on, and of the same length
+//                              "X", "Y" [m], "heading" [rad],
+//                              "s": [[arc length of each part of the course that it covers some of [m], ...], ...],
+//                              "half_length": [along the course [m], ...]}}, ...]   it stays at each place until the next
+//    "decisions": [{"t" [s], rising, "decision", "reason": texts}, ...]   may be empty
 //    "outline": {"front", "rear", "width" [m]},   the vehicle's rectangle about (X, Y)
 //    "limits": {"delta": [min, max], "a": [min, max]},
 //    "series": {"t" [s], rising,
 //               and of the same length, null where there is no value: "X", "Y" [m], "psi" [rad],
-//               "upsilon", "upsilon_ref" [m/s], "delta" [rad], "a" [m/s^2], "solve_time" [us],
+//               "s": arc length of the course beside the vehicle, "stop": that of the line before which it is to
+//               stop [m], "upsilon", "upsilon_ref" [m/s], "delta" [rad], "a" [m/s^2], "solve_time" [us],
 //               "scheduling_error", "largest_slack" [trust radii], "active_rows" [1],
 //               "solved": 1, 0 (infeasible or failed), null (no problem in this cycle)},
 //    "plans": {"k": [index into the series, ...], "dX": [[m, ...], ...], "dY": ...}}
@@ -28,17 +34,21 @@
 //   "table"    "columns": ["...", ...], "rows": [[CELL, ...], ...], "note"
 //              CELL: "..." or {"text", "verdict"}. A column of numbers is right-aligned; a first
 //              cell that consecutive rows share is shown once
-//   "drives"   "drives": [KEY, ...]   overlaid: the plane, again at each obstacle, and seven plots over time (four
-//              without scheduling). Identical obstacles of several drives are shown once
+//   "drives"   "drives": [KEY, ...]   overlaid: the plane, again at each of the obstacles that were come near to (the
+//              nearest six), and seven plots over time (four without scheduling); and for each drive with decisions,
+//              the course over time with all that is on it, beside the list of the decisions. Identical obstacles of
+//              several drives are shown once
 //   "fans"     "fans": [{"title", "drive": KEY, "from": k, "to": k}, ...]   the plans of steps from..to
 //   "map"      "speeds": [m/s, ...], "shifts": [m, ...], both rising,
 //              "panels": [{"title", "cells": for each shift, for each speed: OUTCOME}, ...],
 //              "marks": [{"speed", "shift", "panel": index or null for all, "label"}, ...]
 //              OUTCOME: "clear" | "marginal" | "touch" | "infeasible" | "off-road", from best to worst, | "none"
 //              "marginal": the first unsolved step was short of an obstacle by less than a centimetre
+//   "fold"     "verdict": "good" | "bad" | "", "sections": [SECTION, ...]   closed until the reader opens it, and drawn
+//              only then
 //
 // The page reports data of any other form at its top and in the browser's log. When everything is drawn without a
-// fault, the root element has data-ready="1" and data-plots, the number of plots.
+// fault, the root element has data-ready="1" and data-plots, the number of plots outside folds.
 #pragma once
 
 #include <string>

@@ -16,31 +16,50 @@ function sampleAt({series, t_s}, t) {
 
 const hasPose = ({series}, k) => series.X[k] != null && series.Y[k] != null && series.psi[k] != null;
 
-// The obstacle moved to its position at time `t`.
-const obstacleAt = (obstacle, t) =>
-  ({...obstacle, X: obstacle.X + obstacle.velocity_X * t, Y: obstacle.Y + obstacle.velocity_Y * t});
-
-// The obstacle moved to its position at sample `k` of the drive, or at the start if `k` is null.
-const placedAt = (obstacle, {series}, k) => obstacleAt(obstacle, k === null ? 0 : series.t[k]);
-
-// The sample at which the drive is nearest to the obstacle's centre; null if it has no pose at all.
-function closestSample(drive, obstacle) {
-  let best = null;
-  let least = Infinity;
-  drive.series.t.forEach((t, k) => {
-    if (!hasPose(drive, k)) return;
-    const {X, Y} = obstacleAt(obstacle, t);
-    const distance = Math.hypot(drive.series.X[k] - X, drive.series.Y[k] - Y);
-    if (distance < least) [best, least] = [k, distance];
-  });
-  return best;
+// The index of the last number of the rising `numbers` that is at most `value`; 0 if all are greater.
+function lastUpTo(numbers, value) {
+  let low = 0;
+  let high = numbers.length;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (numbers[middle] <= value) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
-// The open-loop prediction of step `k` in the plane; null if the report contains none.
+const isThere = ({from, to}, k) => k >= from && k <= to;
+
+// What identifies an obstacle among those of several drives.
+const obstacleKey = ({id, shape, r_x, r_y, places}) => JSON.stringify([id, shape, r_x, r_y, places.X[0], places.Y[0]]);
+
+// The obstacle with its place at sample `k`, or with its first one if `k` is null.
+function placedAt({shape, r_x, r_y, margin, places}, k) {
+  const i = k === null ? 0 : lastUpTo(places.k, k);
+  return {shape, r_x, r_y, margin, X: places.X[i], Y: places.Y[i], heading: places.heading[i]};
+}
+
+// The sample at which the drive is nearest to the obstacle's centre, with the distance; null if it never saw it.
+function closest(drive, obstacle) {
+  let best = null;
+  for (let k = obstacle.from; k <= obstacle.to; ++k) {
+    if (!hasPose(drive, k)) continue;
+    const {X, Y} = placedAt(obstacle, k);
+    const distance = Math.hypot(drive.series.X[k] - X, drive.series.Y[k] - Y);
+    if (best === null || distance < best.distance) best = {k, distance};
+  }
+  return best;
+}
+const closestSample = (drive, obstacle) => closest(drive, obstacle)?.k ?? null;
+
+// The open-loop prediction of step `k` in the plane, or if there is none that of the last step before it, at most half a
+// second ago: {step, X, Y}; null if the report contains none.
 function planOf({plans, series}, k) {
-  const i = plans ? plans.k.indexOf(k) : -1;
-  if (i < 0 || series.X[k] == null || series.Y[k] == null) return null;
-  return {X: plans.dX[i].map(dX => series.X[k] + dX), Y: plans.dY[i].map(dY => series.Y[k] + dY)};
+  if (!plans || plans.k.length === 0) return null;
+  const i = lastUpTo(plans.k, k);
+  const step = plans.k[i];
+  if (step > k || series.t[k] - series.t[step] > 0.5 || series.X[step] == null || series.Y[step] == null) return null;
+  return {step, X: plans.dX[i].map(dX => series.X[step] + dX), Y: plans.dY[i].map(dY => series.Y[step] + dY)};
 }
 
 function drawRoad(pen, {reference, left, right}) {
@@ -55,12 +74,15 @@ function drawObstacle(pen, obstacle) {
   pen.obstacle(obstacle, obstacle.margin, {color: color("obstacle-edge"), width: 1, dash: [4, 3]});
 }
 
-// Draws the obstacles of several drives at sample `sample(drive, obstacle)`; obstacles that coincide are drawn once.
+// Draws the obstacles of several drives at sample `sample(drive, obstacle)`, if they are there then; those that coincide
+// are drawn once.
 function drawObstacles(pen, drives, sample) {
   const drawn = new Set();
   for (const drive of drives) {
     for (const obstacle of drive.obstacles) {
-      const placed = placedAt(obstacle, drive, sample(drive, obstacle));
+      const k = sample(drive, obstacle);
+      if (k !== null && !isThere(obstacle, k)) continue;
+      const placed = placedAt(obstacle, k);
       const key = JSON.stringify(placed);
       if (!drawn.has(key)) drawObstacle(pen, placed);
       drawn.add(key);
@@ -73,7 +95,7 @@ const roadsOf = (report, drives) => [...new Set(drives.map(drive => drive.road))
 // Two opposite corners of a square around the obstacle and its margin, where `drive` is nearest, as a line for
 // boxAbout().
 function extentOf(obstacle, drive) {
-  const {X, Y, shape, r_x, r_y, margin} = placedAt(obstacle, drive, closestSample(drive, obstacle));
+  const {X, Y, shape, r_x, r_y, margin} = placedAt(obstacle, closestSample(drive, obstacle));
   const radius = (shape === "box" ? Math.hypot(r_x, r_y) : Math.max(r_x, r_y)) + margin;
   return {X: [X - radius, X + radius], Y: [Y - radius, Y + radius]};
 }

@@ -82,15 +82,6 @@ ordered_json FailuresSection(const SweepResult& result) {
           {"note", all > kListed ? fmt::format("The first {} of {}.", kListed, all) : ""}};
 }
 
-// Keeps only the obstacles that the vehicle came near to, because the page draws the plane at each.
-void KeepObstaclesMet(DriveRecord& record) {
-  constexpr double kNear = 12.0;  // [m]
-  std::erase_if(record.obstacles, [&](const control::Obstacle& obstacle) {
-    return std::ranges::none_of(
-        record.samples, [&](const DriveSample& sample) { return record.Distance(sample, obstacle) < kNear; });
-  });
-}
-
 // Drives the scenario again and adds its road, its drive and a section that shows them.
 void AddDrawing(const SweepResult& result, const SweepFailure& failure, ordered_json& page) {
   const SweptScenario& scenario = result.scenarios[failure.scenario];
@@ -103,14 +94,12 @@ void AddDrawing(const SweepResult& result, const SweepFailure& failure, ordered_
       DriveSweepScenario(drawn, result.setup.ranges, controller, [&](const can::Frame& frame) {
         recorder.Take(frame);
       }).drive;
-  DriveRecord record = recorder.record();
-  KeepObstaclesMet(record);
   const std::string road = std::to_string(scenario.seed);
   const std::string key = road + " " + controller;
   page["roads"][road] = RoadData(drawn.route);
-  page["drives"][key] =
-      DriveData(record, {.name = controller, .road_key = road, .footprint = drawn.scenario.footprint}, config,
-                drawn.route);
+  page["drives"][key] = DriveData(
+      recorder.record(), {.name = controller, .road_key = road, .footprint = drawn.scenario.footprint},
+      config, drawn.route);
   page["sections"].push_back(
       {{"type", "drives"},
        {"title", fmt::format("{} by {}: {}", scenario.seed, controller, NameOf(drive.outcome))},

@@ -178,12 +178,15 @@ TEST(LpvAffineMpc, WhatIsNotFiniteFailsAndTheNextGoodStepRecovers) {
       for (const double bad :
            {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         entry = bad;
-        EXPECT_EQ(loop.Ask().status, SolverStatus::kNumericalFailure);
+        const Plan& failed = loop.Ask();
+        EXPECT_EQ(failed.status, SolverStatus::kNumericalFailure);
+        EXPECT_FALSE(failed.manoeuvre) << "nothing was decided";
       }
       entry = good;
       const Plan& plan = loop.Ask();
       EXPECT_EQ(plan.status, SolverStatus::kSolved);
       EXPECT_TRUE(plan.u[0].allFinite());
+      EXPECT_TRUE(plan.manoeuvre);
     };
     for (int j = 0; j < kStates; ++j) expect_failure(loop.z()[j]);
     for (int j = 0; j < kInputs; ++j) expect_failure(loop.u()[j]);

@@ -41,6 +41,21 @@ class TrackingProblemTest : public ::testing::Test {
   TrackingProblem tracking_{{}, profile_, kSettings};
 };
 
+TEST_F(TrackingProblemTest, StatusTellsTheDecisionWithTheDistanceToItsStopLineAndTheSpeedLimit) {
+  tracking_.Begin(At(50.0, 0.0, 10.0), 50.0, {});
+  EXPECT_EQ(tracking_.manoeuvre_status().decision, Decision::kDrive);
+  EXPECT_TRUE(std::isinf(tracking_.manoeuvre_status().stop_distance));
+  EXPECT_NEAR(tracking_.manoeuvre_status().speed_limit, 12.0, 1e-9);
+  const std::vector wall{Circle(7, 90.0, 0.0, 3.5)};
+  tracking_.Begin(At(50.0, 0.0, 10.0), 50.0, wall);
+  const ManoeuvreStatus waits = tracking_.manoeuvre_status();
+  EXPECT_EQ(waits.decision, Decision::kWait);
+  EXPECT_EQ(waits.reason, Reason::kNoGap);
+  EXPECT_EQ(waits.object, 7);
+  EXPECT_EQ(waits.side, Side::kNone);
+  EXPECT_NEAR(waits.stop_distance, 40.0 - 3.5 - kSettings.footprint.front - kSettings.stop_gap, 1e-6);
+}
+
 TEST_F(TrackingProblemTest, RoadRowsHoldTheEndsOfTheVehicleWithinTheEdgesOfABend) {
   const double radius = 30.0;
   const RoadProfile bend(testing::CircularRoad(radius, 1.6, 8.0), RoadBounds{.left = 3.0, .right = -5.0}, {});

@@ -90,6 +90,10 @@ TEST(AffineNmpc, PassesAnObstacleWithItsFootprintClear) {
   for (int k = 0; k < 140 && loop.s() < 95.0; ++k) {
     const Plan& plan = nmpc.Step(loop.Asked());
     ASSERT_EQ(plan.status, SolverStatus::kSolved) << k;
+    ASSERT_TRUE(plan.manoeuvre);
+    if (loop.s() < 80.0) {
+      EXPECT_EQ(plan.manoeuvre->decision, Decision::kPass) << k;
+    }
     loop.Drive(plan);
     clearance = std::min(clearance, loop.Clearance());
     road_margin = std::min(road_margin, loop.RoadMargin());

@@ -52,6 +52,17 @@ TEST(Gaps, WhereTheMarginsDoNotFitTheyShrinkAlikeAndTheSpeedWithThem) {
   EXPECT_NEAR(gaps[0].speed, 11.0, 1e-6) << "half way from 2 m/s to 20 m/s";
 }
 
+TEST(Gaps, MarginsThatShrinkLeaveNoPlayButNeverLess) {
+  testing::Random random(5);
+  for (int k = 0; k < 1000; ++k) {
+    const double room = random.Uniform(0.15, 0.7);
+    const auto gaps = Find({{.right = -9.0, .left = 4.0 - 2.0 * kHalfWidth - room, .margin = kMargin}});
+    ASSERT_EQ(gaps.size(), 1u);
+    EXPECT_LE(gaps[0].lo, gaps[0].hi) << room;
+    EXPECT_NEAR(gaps[0].lo, gaps[0].hi, 1e-12) << room;
+  }
+}
+
 TEST(Gaps, GapExistsDownToTheLeastMargins) {
   const double edge = 4.0 - 2.0 * kHalfWidth - 0.15;
   const auto open = Find({{.right = -9.0, .left = edge - 1e-6, .margin = kMargin}});

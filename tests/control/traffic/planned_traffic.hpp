@@ -26,7 +26,7 @@ class PlannedTraffic : public ::testing::Test {
       .grip = 5.0,
       .path = {}};
 
-  explicit PlannedTraffic(const RoadBounds& road = {.left = 4.0, .right = -4.0})
+  explicit PlannedTraffic(const RoadEdges& road = RoadBounds{.left = 4.0, .right = -4.0})
       : profile_(StraightRoad(900.0, kSpeed), road, {}), planner_(kSettings, profile_) {}
 
   // A circle `ahead` of the vehicle's centre and `Y` left of the middle of the road [m].

@@ -15,13 +15,13 @@ using MovingTraffic = testing::PlannedTraffic;
 // The same between edges at −1.9 m and 1.5 m.
 class NarrowRoad : public testing::PlannedTraffic {
  protected:
-  NarrowRoad() : PlannedTraffic({.left = 1.5, .right = -1.9}) {}
+  NarrowRoad() : PlannedTraffic(RoadBounds{.left = 1.5, .right = -1.9}) {}
 };
 
 // The vehicle's lane in the middle and one for oncoming traffic on the left.
 class TwoLanes : public testing::PlannedTraffic {
  protected:
-  TwoLanes() : PlannedTraffic({.left = 5.25, .right = -1.75}) {}
+  TwoLanes() : PlannedTraffic(RoadBounds{.left = 5.25, .right = -1.75}) {}
 };
 
 TEST_F(MovingTraffic, ObstacleThatCrossesIsJudgedWhereItIsMet) {
@@ -85,6 +85,7 @@ TEST_F(NarrowRoad, PedestrianWhoCrossesGoesFirst) {
   person.object_class = ObstacleClass::kPedestrian;
   const Manoeuvre& manoeuvre = Plan({person});
   EXPECT_EQ(manoeuvre.decision, Decision::kYield);
+  EXPECT_EQ(manoeuvre.reason, Reason::kCrossingFirst);
   EXPECT_EQ(manoeuvre.object, 1);
   ASSERT_FALSE(manoeuvre.stops().empty());
   EXPECT_LE(manoeuvre.stops()[0].s, person.X - 0.3 - 2.0 - kSettings.stop_gap + 1e-6);
@@ -94,7 +95,23 @@ TEST_F(TwoLanes, SlowVehicleIsOvertakenUnlessSomebodyComesTowardsIt) {
   EXPECT_EQ(SideOf(Car(25.0, 0.0, 5.0)), Side::kLeft);
   const Manoeuvre& manoeuvre = PlanAnew({Car(25.0, 0.0, 5.0), Car(90.0, 3.5, -12.0)});
   EXPECT_EQ(manoeuvre.decision, Decision::kFollow);
+  EXPECT_EQ(manoeuvre.reason, Reason::kOncomingFirst);
   EXPECT_EQ(manoeuvre.object, 1);
+}
+
+TEST_F(TwoLanes, ReasonTellsWhetherOvertakingSavesTimeOrOnlyNeedsNoMore) {
+  EXPECT_EQ(PlanAnew({Car(50.0, 0.0, 5.0)}).reason, Reason::kWayFree);
+  EXPECT_EQ(PlanAnew({Car(12.0, 0.0, 5.0)}).reason, Reason::kStayingCosts);
+}
+
+TEST_F(TwoLanes, WayForWhichItIsLateIsGivenUpAfterAFewCyclesOnly) {
+  const std::vector near{Car(5.0, 0.0, kSpeed - 1.0)};  // too near to change lanes behind it
+  const Manoeuvre* manoeuvre = &Plan(near);
+  EXPECT_EQ(manoeuvre->decision, Decision::kPass);
+  EXPECT_EQ(manoeuvre->reason, Reason::kLateForNow);
+  for (int k = 0; k < 5; ++k) manoeuvre = &Plan(near);
+  EXPECT_EQ(manoeuvre->decision, Decision::kFollow);
+  EXPECT_EQ(manoeuvre->reason, Reason::kTooLate);
 }
 
 TEST_F(TwoLanes, OvertakingWaitsUntilTheOncomingVehicleHasPassed) {

@@ -6,6 +6,7 @@
 
 #include "control/traffic/speed_plan.hpp"
 #include "gtest/gtest.h"
+#include "tests/control/narrowing.hpp"
 #include "tests/control/random.hpp"
 #include "tests/control/traffic/planned_traffic.hpp"
 
@@ -18,6 +19,7 @@ using TrafficPlannerTest = testing::PlannedTraffic;
 TEST_F(TrafficPlannerTest, OnAFreeRoadItDrivesAlongTheReferencePath) {
   const Manoeuvre& manoeuvre = Plan({});
   EXPECT_EQ(manoeuvre.decision, Decision::kDrive);
+  EXPECT_EQ(manoeuvre.reason, Reason::kWayFree);
   EXPECT_EQ(manoeuvre.object, -1);
   EXPECT_TRUE(manoeuvre.stops().empty());
   for (const double ahead : {0.0, 20.0, 60.0}) {
@@ -36,7 +38,9 @@ TEST_F(TrafficPlannerTest, OfTwoWideGapsThatOneIsTakenThatAsksForTheLeastShift) 
 TEST_F(TrafficPlannerTest, PathKeepsTheMarginBesideTheObstacle) {
   const Manoeuvre& manoeuvre = Plan({At(40.0, -0.5, 0.6)});
   ASSERT_EQ(manoeuvre.decision, Decision::kPass);
+  EXPECT_EQ(manoeuvre.reason, Reason::kWayFree);
   EXPECT_EQ(manoeuvre.object, 1);
+  EXPECT_EQ(manoeuvre.passed, Side::kLeft);
   EXPECT_TRUE(manoeuvre.stops().empty());
   // From where the vehicle's front reaches the obstacle to where its rear leaves it.
   for (double ahead = 40.0 - 0.6 - 2.0; ahead < 40.0 + 0.6 + 2.3; ahead += 0.5) {
@@ -56,10 +60,25 @@ TEST_F(TrafficPlannerTest, WhereNoGapIsWideEnoughItWaitsBeforeTheObstacle) {
   EXPECT_EQ(Decide({At(40.0, 0.25, 2.1)}), Decision::kPass);
   const Manoeuvre& manoeuvre = PlanAnew({At(40.0, 0.0, 2.1)});
   EXPECT_EQ(manoeuvre.decision, Decision::kWait);
+  EXPECT_EQ(manoeuvre.reason, Reason::kNoGap);
   EXPECT_EQ(manoeuvre.object, 1);
+  EXPECT_EQ(manoeuvre.passed, Side::kNone);
   ASSERT_EQ(manoeuvre.stops().size(), 1u);
   EXPECT_EQ(manoeuvre.stops()[0].speed, 0.0);
   EXPECT_NEAR(manoeuvre.stops()[0].s, kPlace + 40.0 - 2.1 - 2.0 - kSettings.stop_gap, 1e-6);
+}
+
+class NarrowingRoad : public testing::PlannedTraffic {
+ protected:
+  NarrowingRoad() : PlannedTraffic(testing::NarrowingOnTheRight(kPlace + 60.0, kPlace + 80.0, 2.5)) {}
+};
+
+TEST_F(NarrowingRoad, WhereTheRoadItselfIsTooNarrowItWaitsForNothing) {
+  const Manoeuvre& manoeuvre = Plan({});
+  EXPECT_EQ(manoeuvre.decision, Decision::kWait);
+  EXPECT_EQ(manoeuvre.reason, Reason::kRoadTooNarrow);
+  EXPECT_EQ(manoeuvre.object, -1);
+  ASSERT_FALSE(manoeuvre.stops().empty());
 }
 
 TEST_F(TrafficPlannerTest, ObstaclesSideBySideArePassedInTheMiddle) {
@@ -103,7 +122,9 @@ TEST_F(TrafficPlannerTest, WhereItIsTooLateToStopAGapIsTakenThatLeavesTheMargins
   Obstacle tight = At(14.0, -0.5, 2.6);
   const Manoeuvre& left = PlanAnew({tight});
   EXPECT_EQ(left.decision, Decision::kSqueeze);
+  EXPECT_EQ(left.reason, Reason::kTooLateToStop);
   EXPECT_EQ(left.side[0], Side::kLeft);
+  EXPECT_EQ(left.passed, Side::kLeft);
   EXPECT_TRUE(left.stops().empty());
   EXPECT_EQ(Decide({tight}, 0.0, 3.0), Decision::kWait);
   tight.Y = 0.5;
@@ -114,6 +135,8 @@ TEST_F(TrafficPlannerTest, WhereItIsTooLateToStopAGapIsTakenThatLeavesTheMargins
 
 TEST_F(TrafficPlannerTest, WhereTheVehicleDoesNotFitItBrakesThoughItIsTooLate) {
   const Manoeuvre& manoeuvre = Plan({At(8.0, -0.5, 3.5)});
+  EXPECT_EQ(manoeuvre.decision, Decision::kSqueeze);
+  EXPECT_EQ(manoeuvre.reason, Reason::kNoWay);
   ASSERT_FALSE(manoeuvre.stops().empty());
   EXPECT_LT(manoeuvre.stops()[0].s, kPlace + 8.0 - 3.5);
 }
@@ -145,7 +168,9 @@ TEST_F(TrafficPlannerTest, ObstacleThatIsSeenForOneCycleLessDoesNotReopenTheRoad
   for (int k = 0; k < 5; ++k) ASSERT_EQ(Plan(wall, 0.0, 0.0).decision, Decision::kWait);
   std::vector gap{At(20.0, 0.0, 2.0)};  // noise of its size
   EXPECT_EQ(Plan(gap, 0.0, 0.0).decision, Decision::kWait);
+  EXPECT_EQ(Plan(gap, 0.0, 0.0).reason, Reason::kOpenTooShort);
   EXPECT_EQ(Plan(wall, 0.0, 0.0).decision, Decision::kWait);
+  EXPECT_EQ(Plan(wall, 0.0, 0.0).reason, Reason::kNoGap);
 }
 
 TEST_F(TrafficPlannerTest, NarrowGapLimitsTheSpeedToWhatItsMarginsAreWorth) {
