@@ -22,6 +22,7 @@ constexpr double kAfterLast = 0.8;                 // least time from the last e
 constexpr double kRunOut = 4.0;           // extension of the controller's road past the scenario's end [s]
 constexpr double kLateralShare = 0.35;    // share of μ g that the road's bends need at most
 constexpr double kSharpest = 1.0 / 30.0;  // curvature [1/m]
+constexpr double kMostExcess = 1.0;       // over the target speed [m/s]
 constexpr control::RoadBounds kRoad{.left = 4.0, .right = -4.0};
 // The start: no road reaches the map's bounds from here.
 constexpr double kStartX = 0.5 * (sim::kMapMinX + sim::kMapMaxX),
@@ -157,6 +158,7 @@ RandomScenario DrawScenario(std::uint64_t seed, const ScenarioRanges& ranges) {
   scenario.description = Describe(scenario);
   scenario.expect.min_clearance_m = 0.0;
   scenario.expect.min_road_margin_m = 0.0;
+  scenario.expect.max_speed_excess_mps = kMostExcess;
 
   pieces.push_back({.length = kRunOut * speed});
   return {.scenario = std::move(scenario),

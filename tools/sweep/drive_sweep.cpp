@@ -27,9 +27,9 @@ SweepPart DriveSweep(const SweepSetup& setup, const Shard& shard, int jobs) {
   ProgressBar bar(drives);
   bar.Name("sweep");
   const auto drive = [&](std::size_t i) {
-    const RandomScenario drawn = DrawScenario(scenarios[i / controllers].seed, setup.ranges);
-    const TimedSweepDrive driven =
-        DriveSweepScenario(drawn, setup.ranges, setup.controllers[i % controllers]);
+    const SweptScenario& scenario = scenarios[i / controllers];
+    const TimedSweepDrive driven = DriveSweepScenario(DrawScenario(scenario.seed, setup.ranges), scenario.way,
+                                                      setup.ranges, setup.controllers[i % controllers]);
     TimeHistogram times;
     for (const double seconds : driven.step_seconds) times.Add(seconds);
     return TimedDriveJson(driven.drive, times).dump();
