@@ -18,7 +18,7 @@ _lpvmpcd() {
     --log | -o | --output) _filedir && return ;;
     --out | --record-qp | --scenarios) _filedir -d && return ;;
     --json) [[ ${words[1]} == catalogue ]] && _filedir json && return ;; # elsewhere without a value
-    --horizon | --repeat | --jobs | --timeout | --count | --filter | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers, texts
+    --horizon | --repeat | --jobs | --timeout | --count | --filter | --seed | --sweep-seed | --traffic-key | --speed | --mu | --shard) return ;; # numbers, texts
   esac
 
   # The command so far: each word that names a subcommand of the one before it.

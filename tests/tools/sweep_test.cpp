@@ -378,6 +378,22 @@ TEST_F(Parts, JoinedGiveTheWholeByteForByte) {
             tools::TimingJson(whole.result).at("lpv").at("steps"));
 }
 
+TEST_F(Parts, WithTrafficGiveTheWholeToo) {
+  SweepSetup setup = Small();
+  setup.ranges.traffic = true;
+  setup.controllers = {"lpv"};
+  const SweepPart whole = tools::DriveSweep(setup, {}, 2);
+  std::vector<std::filesystem::path> files;
+  for (const int i : {2, 1})
+    files.push_back(Write(tools::DriveSweep(setup, {.index = i, .of = 2}, 1), std::to_string(i)));
+  EXPECT_EQ(tools::ToJson(tools::MergeParts(files)).dump(), tools::ToJson(whole.result).dump());
+  EXPECT_NE(whole.result.scenarios[0].description,
+            tools::DrawScenario(whole.result.scenarios[0].seed, {}).scenario.description);
+  EXPECT_EQ(setup.Describe(), "4 scenarios with traffic of seed 11, 8..20 m/s, mu 0.4..1, by lpv");
+  EXPECT_EQ(setup.CommandToDriveAgain(),
+            "lpvmpc run --sweep-seed SEED --traffic --speed 8 20 --mu 0.4 1 --controller NAME");
+}
+
 TEST_F(Parts, MoreShardsThanScenariosLeaveSomeEmpty) {
   std::vector<std::filesystem::path> files;
   for (int i = 1; i <= 6; ++i)
@@ -402,6 +418,8 @@ TEST_F(Parts, OfAnotherSweepAreRefusedWithTheirFile) {
               AllOf(HasSubstr(place), HasSubstr("8..21 m/s")));
   EXPECT_THAT(error([](SweepSetup& s) { s.ranges.mu.high = 1.1; }),
               AllOf(HasSubstr(place), HasSubstr("mu 0.4..1.1")));
+  EXPECT_THAT(error([](SweepSetup& s) { s.ranges.traffic = true; }),
+              AllOf(HasSubstr(place), HasSubstr("with traffic")));
   EXPECT_THAT(error([](SweepSetup& s) {
                 s.controllers = {"lpv", "nmpc-affine"};
               }),

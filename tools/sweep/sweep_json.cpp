@@ -81,6 +81,7 @@ ordered_json SetupJson(const SweepSetup& setup) {
           {"count", setup.count},
           {"speed_m_s", {ranges.speed.low, ranges.speed.high}},
           {"mu", {ranges.mu.low, ranges.mu.high}},
+          {"traffic", ranges.traffic},
           {"controllers", setup.controllers}};
 }
 
@@ -88,10 +89,11 @@ SweepSetup SetupOf(const ordered_json& json) {
   const auto interval = [&](const char* key) {
     return Interval{.low = json.at(key).at(0), .high = json.at(key).at(1)};
   };
-  SweepSetup setup{.seed = json.at("seed"),
-                   .count = json.at("count"),
-                   .ranges = {.speed = interval("speed_m_s"), .mu = interval("mu")},
-                   .controllers = json.at("controllers")};
+  SweepSetup setup{
+      .seed = json.at("seed"),
+      .count = json.at("count"),
+      .ranges = {.speed = interval("speed_m_s"), .mu = interval("mu"), .traffic = json.at("traffic")},
+      .controllers = json.at("controllers")};
   CheckSetup(setup);
   return setup;
 }

@@ -83,13 +83,9 @@ ordered_json FailuresSection(const SweepResult& result) {
          result.setup.controllers[failure.controller],
          ordered_json{{"text", NameOf(drive.outcome)}, {"verdict", "bad"}}, drive.why});
   }
-  const ScenarioRanges& ranges = result.setup.ranges;
   return {{"type", "table"},
           {"title", "Failures"},
-          {"paragraphs",
-           {fmt::format(
-               "To drive one again: lpvmpc run --sweep-seed SEED --speed {} {} --mu {} {} --controller NAME",
-               ranges.speed.low, ranges.speed.high, ranges.mu.low, ranges.mu.high)}},
+          {"paragraphs", {"To drive one again: " + result.setup.CommandToDriveAgain()}},
           {"columns", {"scenario", "controller", "outcome", "why"}},
           {"rows", rows},
           {"note", all > kListed ? fmt::format("The first {} of {}.", kListed, all) : ""}};

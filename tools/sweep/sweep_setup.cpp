@@ -11,8 +11,15 @@
 namespace tools {
 
 std::string SweepSetup::Describe() const {
-  return fmt::format("{} scenarios of seed {}, {}..{} m/s, mu {}..{}, by {}", count, seed, ranges.speed.low,
-                     ranges.speed.high, ranges.mu.low, ranges.mu.high, fmt::join(controllers, ", "));
+  return fmt::format("{} scenarios{} of seed {}, {}..{} m/s, mu {}..{}, by {}", count,
+                     ranges.traffic ? " with traffic" : "", seed, ranges.speed.low, ranges.speed.high,
+                     ranges.mu.low, ranges.mu.high, fmt::join(controllers, ", "));
+}
+
+std::string SweepSetup::CommandToDriveAgain() const {
+  return fmt::format("lpvmpc run --sweep-seed SEED{} --speed {} {} --mu {} {} --controller NAME",
+                     ranges.traffic ? " --traffic" : "", ranges.speed.low, ranges.speed.high, ranges.mu.low,
+                     ranges.mu.high);
 }
 
 void CheckSetup(const SweepSetup& setup) {

@@ -15,8 +15,10 @@ struct SweepSetup {
   ScenarioRanges ranges;
   std::vector<std::string> controllers;  // names, each once
 
-  // "200 scenarios of seed 1, 8..20 m/s, mu 0.4..1, by lpv, nmpc"
+  // "200 scenarios with traffic of seed 1, 8..20 m/s, mu 0.4..1, by lpv, nmpc"
   [[nodiscard]] std::string Describe() const;
+  // "lpvmpc run --sweep-seed SEED --speed 8 20 --mu 0.4 1 --controller NAME"
+  [[nodiscard]] std::string CommandToDriveAgain() const;
   bool operator==(const SweepSetup&) const = default;
 };
 

@@ -36,11 +36,7 @@ void AppendFigures(const SweepResult& result, std::string& text) {
 void AppendFailures(const SweepResult& result, std::string& text) {
   const std::vector<SweepFailure> failures = Failures(result);
   if (failures.empty()) return;
-  const ScenarioRanges& ranges = result.setup.ranges;
-  text += fmt::format(
-      "\nFailures; to drive one again:\n"
-      "  lpvmpc run --sweep-seed SEED --speed {} {} --mu {} {} --controller NAME\n\n",
-      ranges.speed.low, ranges.speed.high, ranges.mu.low, ranges.mu.high);
+  text += fmt::format("\nFailures; to drive one again:\n  {}\n\n", result.setup.CommandToDriveAgain());
   const SweptScenario* last = nullptr;
   for (const SweepFailure& failure : failures) {
     const SweptScenario& scenario = result.scenarios[failure.scenario];
