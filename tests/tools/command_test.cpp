@@ -46,7 +46,7 @@ TEST(Lpvmpc, UnknownOptionIsNotHiddenByWhatElseIsMissing) {
 }
 
 TEST(Lpvmpc, WhatIsRequiredIsNamed) {
-  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep, catalogue or report"));
+  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep, falsify, catalogue or report"));
   ExpectOneLine({LPVMPC, "bench"}, HasSubstr("bench step"));
   ExpectOneLine({LPVMPC, "run"}, HasSubstr("--scenario"));
   ExpectOneLine({LPVMPC, "report", "-o", "x.html"}, HasSubstr("RUN_DIR"));
@@ -166,6 +166,39 @@ TEST(Lpvmpc, RunTakesAScenarioOrASweepsSeedNotBoth) {
                 HasSubstr("--sweep-seed"));
   ExpectOneLine({LPVMPC, "run", "--traffic-key", "AA"}, HasSubstr("--traffic-key: a key has"));
   ExpectOneLine({LPVMPC, "run", "--traffic-key", "AA", "--sweep-seed", "1"}, HasSubstr("--traffic-key"));
+}
+
+TEST(Lpvmpc, FalsifyRefusesWhatCannotBe) {
+  const auto expect = [](std::vector<std::string> options, const testing::Matcher<std::string>& line) {
+    options.insert(options.begin(), {LPVMPC, "falsify"});
+    ExpectOneLine(options, line);
+  };
+  expect({"--seed", "1"}, HasSubstr("--budget"));
+  expect({"--budget", "1"}, HasSubstr("--seed"));
+  expect({"--budget", "0", "--seed", "1"}, HasSubstr("--budget"));
+  expect({"--budget", "1", "--seed", "1", "--speed", "9", "8"}, HasSubstr("--speed: 9 8 must be LO HI"));
+  expect({"--budget", "1", "--seed", "1", "--controller", "pid"}, AllOf(HasSubstr("pid"), HasSubstr("lpv")));
+  expect({"--budget", "1", "--seed", "1", "--shard", "0/2"}, HasSubstr("--shard: 0/2 must be i/n"));
+  expect({"merge"}, HasSubstr("FILE"));
+  expect({"merge", "/nowhere/part"}, HasSubstr("/nowhere/part"));
+}
+
+// The printed command drives the scenario again, and its folder holds all that a report needs.
+TEST(Lpvmpc, WhatFalsifyFindsIsDrivenAgainByItsKey) {
+  const test_support::Outcome found =
+      test_support::Run({LPVMPC, "falsify", "--budget", "4", "--seed", "2", "--controller", "lpv"});
+  EXPECT_EQ(found.status, 0) << found.err;
+  const std::string option = "--traffic-key ";
+  const std::size_t at = found.out.find(option);
+  ASSERT_NE(at, std::string::npos) << found.out;
+  const std::string key = found.out.substr(at + option.size(), found.out.find('\n', at) - at - option.size());
+  const test_support::TempDir folder;
+  const std::string run = (folder.path() / "run").string(), page = (folder.path() / "page.html").string();
+  EXPECT_LT(
+      test_support::Run({LPVMPC, "run", "--traffic-key", key, "--controller", "lpv", "--out", run}).status,
+      2);
+  EXPECT_EQ(test_support::Run({LPVMPC, "report", run, "-o", page}).status, 0);
+  EXPECT_GT(std::filesystem::file_size(page), 100'000u);
 }
 
 TEST(Lpvmpc, MissingScenarioIsNamed) {

@@ -106,6 +106,14 @@ TEST(SpaceTimeWay, ObstacleIsNotKnownBeforeItIsPerceived) {
   EXPECT_EQ(FindSpaceTimeWay(scenario), PossibleWay::kNone);
 }
 
+TEST(SpaceTimeWay, WhatIsPerceivedWhenTheEndIsReachedDoesNotMatter) {
+  sim::Scenario scenario = With({Wall(690.0, -4.0, 4.0)});
+  for (double appears = 13.0; appears < 14.5; appears += 0.1) {
+    scenario.appears_at[1] = appears;
+    EXPECT_EQ(FindSpaceTimeWay(scenario), PossibleWay::kPass) << appears;
+  }
+}
+
 TEST(SpaceTimeWay, ShiftTakesTime) {
   sim::Scenario scenario = With({Wall(800.0, -4.0, 1.2)});  // a shift of 2.2 m
   scenario.appears_at[1] = 4.0;

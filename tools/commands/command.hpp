@@ -25,6 +25,7 @@ struct Command {
 [[nodiscard]] std::vector<Command> AddBench(CLI::App& program);
 [[nodiscard]] Command AddPaper(CLI::App& program);
 [[nodiscard]] std::vector<Command> AddSweep(CLI::App& program);
+[[nodiscard]] std::vector<Command> AddFalsify(CLI::App& program);
 [[nodiscard]] Command AddCatalogue(CLI::App& program);
 [[nodiscard]] Command AddReport(CLI::App& program);
 

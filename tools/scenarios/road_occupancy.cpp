@@ -81,12 +81,6 @@ void RoadOccupancy::Block(const control::Obstacle& object) {
   }
 }
 
-LateralCells RoadOccupancy::Free(int tick, double s) const {
-  if (tick > ticks_) return 0;
-  const double station = std::clamp(std::round(s), 0.0, static_cast<double>(stations_ - 1));
-  return free_[static_cast<std::size_t>(tick) * stations_ + static_cast<std::size_t>(station)];
-}
-
 int RoadOccupancy::CellAt(double lateral) const {
   return static_cast<int>(std::clamp(std::round((lateral - rightmost_) / kCell), 0.0, kCells - 1.0));
 }

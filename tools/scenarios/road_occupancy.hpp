@@ -6,6 +6,8 @@
 // and one that comes and would brake for it does not brake.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,8 +26,12 @@ class RoadOccupancy {
   // Up to `until` [s]. Of the objects, those that are perceived at `known_at` [s]. The scenario must outlive it.
   RoadOccupancy(const sim::Scenario& scenario, double until, double known_at);
 
-  // The free cells `tick` ticks after the start; none after `until`.
-  [[nodiscard]] LateralCells Free(int tick, double s) const;
+  // The free cells `tick` ticks after the start; none after `until`. `s` >= 0 [m].
+  [[nodiscard]] LateralCells Free(int tick, double s) const {
+    if (tick > ticks_) return 0;
+    const std::size_t station = std::min(static_cast<std::size_t>(s), stations_ - 1);
+    return free_[static_cast<std::size_t>(tick) * stations_ + station];
+  }
 
   [[nodiscard]] int CellAt(double lateral) const;  // the nearest, 0..63
   [[nodiscard]] int ticks() const { return ticks_; }

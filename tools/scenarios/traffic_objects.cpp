@@ -213,8 +213,7 @@ std::string AddCrossing(PointReader reader, sim::Scenario& scenario) {
   body.heading = control::WrapAngle(heading);
   body.velocity_X = velocity.x();
   body.velocity_Y = velocity.y();
-  const std::string text =
-      fmt::format("{} that crosses at {:.1f} m/s{}", WhatIs(body), speed, Noticed(notice));
+  std::string text = fmt::format("{} that crosses at {:.1f} m/s{}", WhatIs(body), speed, Noticed(notice));
   Add(body, met, notice, scenario);
   return text;
 }

@@ -10,8 +10,8 @@
 namespace tools {
 namespace {
 
-constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-constexpr std::size_t kParts = 64 * 64;
+constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._";
+constexpr std::size_t kParts = 4096;  // 64 × 64
 static_assert(kDigits.size() == 64);
 
 std::size_t PartOf(double coordinate) {

@@ -1,7 +1,7 @@
 // The points of the unit cube of which each is one scenario with traffic (traffic_scenario.hpp), and their keys.
 //
-// A key is text of two digits for each coordinate, in base 64 (RFC 4648, section 5): n is the middle of the n-th of
-// 4096 equal parts of [0, 1), counted from 0. So it names exactly the points on this grid.
+// A key is text of two digits for each coordinate, in base 64 with the digits A to Z, a to z, 0 to 9, '.' and '_': n is the
+// middle of the n-th of 4096 equal parts of [0, 1), counted from 0. So it names exactly the points on this grid.
 #pragma once
 
 #include <array>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/scenarios/scenario_ranges.hpp"
+#include "tools/shards/shard.hpp"
 
 namespace tools {
 
@@ -25,17 +26,5 @@ struct SweepSetup {
 // Throws std::invalid_argument, naming the command-line option, if a range is bad (scenario_ranges.hpp), or a
 // controller is unknown or named twice, or none is named.
 void CheckSetup(const SweepSetup& setup);
-
-// Part `index`, from 1, of `of` parts: the scenarios index − 1, index − 1 + of, ...
-struct Shard {
-  int index = 1;
-  int of = 1;
-  bool operator==(const Shard&) const = default;
-
-  [[nodiscard]] std::vector<int> Indices(int count) const;
-};
-
-// Parses "i/n". Throws std::invalid_argument if `text` has another form, or unless 1 <= i <= n.
-[[nodiscard]] Shard ParseShard(const std::string& text);
 
 }  // namespace tools
