@@ -153,6 +153,15 @@ TEST(SweepOutcomeTest, StandingBeforeTheEndIsStoppedUnlessItWasTooFast) {
   EXPECT_EQ(tools::OutcomeOf(summary, expect, PossibleWay::kStop), SweepOutcome::kTooFast);
 }
 
+TEST(SweepOutcomeTest, BeingUnderWayWhereOneCanOnlyStopIsStopped) {
+  sim::Summary summary;
+  summary.steps = 100;
+  EXPECT_EQ(tools::OutcomeOf(summary, {}, PossibleWay::kStop), SweepOutcome::kStopped);
+  EXPECT_EQ(tools::OutcomeOf(summary, {}, PossibleWay::kPass), SweepOutcome::kFailed);
+  summary.steps = 0;
+  EXPECT_EQ(tools::OutcomeOf(summary, {}, PossibleWay::kStop), SweepOutcome::kFailed);
+}
+
 TEST(SweepOutcomeTest, NamesAndFailuresAreThoseThatAreSaid) {
   std::set<std::string> names;
   int failures = 0;

@@ -48,7 +48,9 @@ SweepOutcome OutcomeOf(const sim::Summary& summary, const sim::Expectations& exp
   if (contact) return SweepOutcome::kStruck;
   if (summary.safe_stops > 0 && way != PossibleWay::kNone) return SweepOutcome::kSafeStop;
   if (summary.longest_free_standstill_s > kDeadlock) return SweepOutcome::kDeadlock;
-  if (!summary.completed && !summary.standing) return SweepOutcome::kFailed;
+  // Where one can only stop, the vehicle may be behind something slow when the time is up.
+  const bool under_way = way == PossibleWay::kStop && summary.steps > 0;
+  if (!summary.completed && !summary.standing && !under_way) return SweepOutcome::kFailed;
   if (Exceeds(summary.max_speed_excess_mps, expect.max_speed_excess_mps)) return SweepOutcome::kTooFast;
   if (Exceeds(summary.end_overshoot_m, expect.max_end_overshoot_m)) return SweepOutcome::kOverrun;
   return summary.completed ? SweepOutcome::kPassed : SweepOutcome::kStopped;

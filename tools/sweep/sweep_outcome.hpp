@@ -12,8 +12,8 @@ namespace tools {
 
 // The first that holds, in the order of OutcomeOf(), is the drive's outcome.
 enum class SweepOutcome {
-  kPassed,   // none of the others, and the vehicle reached the end of the route
-  kStopped,  // none of the others, and the vehicle stood before the end
+  kPassed,  // none of the others, and the vehicle reached the end of the route
+  kStopped,  // none of the others, and the vehicle stood before the end, or was under way where one can only stop
   kStruck,   // touched by something, by no fault of the vehicle's
   kContact,  // touched something by its own fault (sim/encounter_figures.hpp) and had not left the road before
   kOffRoad,   // a corner left the road before any such contact
