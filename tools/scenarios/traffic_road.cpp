@@ -95,6 +95,8 @@ class RoadBuilder {
   std::vector<control::RoutePiece> pieces_;
 };
 
+enum class RoadLayout { kTwoLanes, kWide, kNarrow };
+
 struct Layout {
   RoadLayout layout;
   control::RoadBounds bounds;

@@ -18,8 +18,6 @@
 
 namespace tools {
 
-enum class RoadLayout { kTwoLanes, kWide, kNarrow };
-
 struct TrafficRoad {
   control::Route route;
   control::RoadEdges edges;
