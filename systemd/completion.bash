@@ -16,10 +16,11 @@ _lpvmpcd() {
       ;;
     --config | --scenario) _filedir toml && return ;;
     --log | -o | --output) _filedir && return ;;
+    --out) [[ ${words[1]} == falsify ]] && _filedir && return ;;& # elsewhere a folder
     --out | --record-qp | --scenarios) _filedir -d && return ;;
     --json) [[ ${words[1]} == catalogue ]] && _filedir json && return ;; # elsewhere without a value
     --report) _filedir html && return ;;
-    --horizon | --repeat | --jobs | --timeout | --count | --filter | --seed | --sweep-seed | --speed | --mu | --shard) return ;; # numbers, texts
+    --horizon | --repeat | --jobs | --timeout | --count | --budget | --worst | --filter | --seed | --sweep-seed | --traffic-key | --speed | --mu | --shard) return ;; # numbers, texts
   esac
 
   # The command so far: each word that names a subcommand of the one before it.
@@ -32,7 +33,7 @@ _lpvmpcd() {
   done
   if [[ $cur == -* ]]; then
     _lpvmpcd_offer "$(_parse_help "${words[0]}" "${path[*]} --help")"
-  elif [[ ${path[*]} == "sweep merge" ]]; then
+  elif [[ ${path[*]} == "sweep merge" || ${path[*]} == "falsify merge" ]]; then
     _filedir
   elif [[ -n $commands ]]; then
     _lpvmpcd_offer "$commands"

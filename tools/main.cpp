@@ -19,6 +19,7 @@ std::vector<tools::Command> AddCommands(CLI::App& program) {
   add(tools::AddBench(program));
   commands.push_back(tools::AddPaper(program));
   add(tools::AddSweep(program));
+  add(tools::AddFalsify(program));
   commands.push_back(tools::AddCatalogue(program));
   commands.push_back(tools::AddReport(program));
   return commands;
@@ -28,7 +29,7 @@ int RunParsed(const std::vector<tools::Command>& commands) {
   for (const tools::Command& command : commands) {
     if (command.app->parsed()) return command.run();
   }
-  throw CLI::RequiredError("a command: run, decode, bench, paper, sweep, catalogue or report");
+  throw CLI::RequiredError("a command: run, decode, bench, paper, sweep, falsify, catalogue or report");
 }
 
 }  // namespace

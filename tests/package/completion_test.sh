@@ -39,7 +39,7 @@ Completes 'a.toml drive' lpvmpcd --config ''
 Completes 'lpv lpv-affine lpv-standard' lpvmpcd --controller ''
 Completes '--scenario' lpvmpc-sim --interface vcan0 --s
 Completes 'a.toml drive' lpvmpc-sim --scenario ''
-Completes 'bench catalogue decode paper report run sweep' lpvmpc ''
+Completes 'bench catalogue decode falsify paper report run sweep' lpvmpc ''
 Completes 'report run' lpvmpc r
 Completes 'qp step' lpvmpc bench ''
 Completes '--horizon' lpvmpc bench step --hor
@@ -53,6 +53,10 @@ Completes '' lpvmpc bench step --repeat ''
 Completes 'merge' lpvmpc sweep ''
 Completes 'a.log a.toml a.txt drive' lpvmpc sweep merge ''
 Completes '' lpvmpc sweep --shard ''
+Completes 'merge' lpvmpc falsify ''
+Completes 'a.log a.toml a.txt drive' lpvmpc falsify merge ''
+Completes '' lpvmpc falsify --budget ''
+Completes 'a.log a.toml a.txt drive' lpvmpc falsify --out ''
 Completes '--filter' lpvmpc catalogue --f
 Completes '' lpvmpc catalogue --filter ''
 Completes 'drive' lpvmpc catalogue --json ''

@@ -14,7 +14,7 @@ SOURCE, PROGRAMS, GENERATED = (pathlib.Path(folder) for folder in sys.argv[1:])
 COMMANDS = [("lpvmpcd", ""), ("lpvmpc-sim", "")]
 COMMANDS += [
     ("lpvmpc", command)
-    for command in ("", "run", "decode", "bench", "bench step", "paper", "sweep", "sweep merge", "catalogue", "report")
+    for command in ("", "run", "decode", "bench", "bench step", "paper", "sweep", "sweep merge", "falsify", "falsify merge", "catalogue", "report")
 ]
 PAGES = {"lpvmpcd": "lpvmpcd.8", "lpvmpc-sim": "lpvmpc-sim.8", "lpvmpc": "lpvmpc.1"}
 

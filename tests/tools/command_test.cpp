@@ -46,7 +46,7 @@ TEST(Lpvmpc, UnknownOptionIsNotHiddenByWhatElseIsMissing) {
 }
 
 TEST(Lpvmpc, WhatIsRequiredIsNamed) {
-  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep, catalogue or report"));
+  ExpectOneLine({LPVMPC}, HasSubstr("run, decode, bench, paper, sweep, falsify, catalogue or report"));
   ExpectOneLine({LPVMPC, "bench"}, HasSubstr("bench step"));
   ExpectOneLine({LPVMPC, "run"}, HasSubstr("--scenario"));
   ExpectOneLine({LPVMPC, "report", "-o", "x.html"}, HasSubstr("RUN_DIR"));
@@ -121,19 +121,18 @@ TEST(Lpvmpc, SweepRefusesWhatCannotBe) {
   expect({"merge", "/nowhere/part"}, HasSubstr("/nowhere/part"));
 }
 
-TEST(Lpvmpc, RunDrivesAScenarioOfASweepAgain) {
-  const std::vector<std::string> sweep{LPVMPC, "sweep", "--count",      "1",         "--seed", "4", "--speed",
-                                       "9",    "10",    "--controller", "lpv-affine"};
-  std::vector<std::string> as_json = sweep;
-  as_json.emplace_back("--json");
-  const std::string json = test_support::Run(as_json).out;
+// A sweep of one scenario with the options, and `lpvmpc run` with `drawn` after it.
+void ExpectRunDrivesAgain(const std::vector<std::string>& options, const std::vector<std::string>& drawn) {
+  std::vector<std::string> sweep{LPVMPC, "sweep", "--count", "1", "--controller", "lpv-affine", "--json"};
+  sweep.insert(sweep.end(), options.begin(), options.end());
+  const std::string json = test_support::Run(sweep).out;
   const auto value = [](const std::string& text, const std::string& key) {
     const std::size_t at = text.find('"' + key + "\": ");
     return at == std::string::npos ? "no " + key : text.substr(at, text.find('\n', at) - at);
   };
-  const std::string seed = std::to_string(tools::ScenarioSeed(4, 0));
-  EXPECT_THAT(json, HasSubstr("\"seed\": " + seed + ","));
-  const std::vector<std::string> run{LPVMPC, "run", "--sweep-seed", seed, "--speed", "9", "10"};
+  EXPECT_THAT(json, HasSubstr("\"seed\": " + std::to_string(tools::ScenarioSeed(4, 0)) + ","));
+  std::vector<std::string> run{LPVMPC, "run"};
+  run.insert(run.end(), drawn.begin(), drawn.end());
   std::vector<std::string> summary = run;
   summary.emplace_back("--json");
   const std::string again = test_support::Run(summary).out;
@@ -151,6 +150,17 @@ TEST(Lpvmpc, RunDrivesAScenarioOfASweepAgain) {
   EXPECT_GT(std::filesystem::file_size(page), 100'000u);
 }
 
+TEST(Lpvmpc, RunDrivesAScenarioOfASweepAgain) {
+  const std::string seed = std::to_string(tools::ScenarioSeed(4, 0));
+  ExpectRunDrivesAgain({"--seed", "4", "--speed", "9", "10"}, {"--sweep-seed", seed, "--speed", "9", "10"});
+}
+
+TEST(Lpvmpc, RunDrivesAScenarioWithTrafficOfASweepAgain) {
+  const std::string seed = std::to_string(tools::ScenarioSeed(4, 0));
+  ExpectRunDrivesAgain({"--seed", "4", "--traffic", "--mu", "0.8", "1"},
+                       {"--sweep-seed", seed, "--traffic", "--mu", "0.8", "1"});
+}
+
 TEST(Lpvmpc, RunTakesAScenarioOrASweepsSeedNotBoth) {
   ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--sweep-seed", "1"},
                 HasSubstr("--sweep-seed"));
@@ -159,6 +169,43 @@ TEST(Lpvmpc, RunTakesAScenarioOrASweepsSeedNotBoth) {
   ExpectOneLine({LPVMPC, "run", "--sweep-seed", "1", "--config", kDemo + "/lpvmpcd.toml"},
                 HasSubstr("--config"));
   ExpectOneLine({LPVMPC, "run", "--sweep-seed", "1", "--speed", "1", "9"}, HasSubstr("--speed: 1 9 must be"));
+  ExpectOneLine({LPVMPC, "run", "--scenario", kDemo + "/scenario.toml", "--traffic"},
+                HasSubstr("--sweep-seed"));
+  ExpectOneLine({LPVMPC, "run", "--traffic-key", "AA"}, HasSubstr("--traffic-key: a key has"));
+  ExpectOneLine({LPVMPC, "run", "--traffic-key", "AA", "--sweep-seed", "1"}, HasSubstr("--traffic-key"));
+}
+
+TEST(Lpvmpc, FalsifyRefusesWhatCannotBe) {
+  const auto expect = [](std::vector<std::string> options, const testing::Matcher<std::string>& line) {
+    options.insert(options.begin(), {LPVMPC, "falsify"});
+    ExpectOneLine(options, line);
+  };
+  expect({"--seed", "1"}, HasSubstr("--budget"));
+  expect({"--budget", "1"}, HasSubstr("--seed"));
+  expect({"--budget", "0", "--seed", "1"}, HasSubstr("--budget"));
+  expect({"--budget", "1", "--seed", "1", "--speed", "9", "8"}, HasSubstr("--speed: 9 8 must be LO HI"));
+  expect({"--budget", "1", "--seed", "1", "--controller", "pid"}, AllOf(HasSubstr("pid"), HasSubstr("lpv")));
+  expect({"--budget", "1", "--seed", "1", "--shard", "0/2"}, HasSubstr("--shard: 0/2 must be i/n"));
+  expect({"merge"}, HasSubstr("FILE"));
+  expect({"merge", "/nowhere/part"}, HasSubstr("/nowhere/part"));
+}
+
+// The printed command drives the scenario again, and its folder holds all that a report needs.
+TEST(Lpvmpc, WhatFalsifyFindsIsDrivenAgainByItsKey) {
+  const test_support::Outcome found =
+      test_support::Run({LPVMPC, "falsify", "--budget", "4", "--seed", "2", "--controller", "lpv"});
+  EXPECT_EQ(found.status, 0) << found.err;
+  const std::string option = "--traffic-key ";
+  const std::size_t at = found.out.find(option);
+  ASSERT_NE(at, std::string::npos) << found.out;
+  const std::string key = found.out.substr(at + option.size(), found.out.find('\n', at) - at - option.size());
+  const test_support::TempDir folder;
+  const std::string run = (folder.path() / "run").string(), page = (folder.path() / "page.html").string();
+  EXPECT_LT(
+      test_support::Run({LPVMPC, "run", "--traffic-key", key, "--controller", "lpv", "--out", run}).status,
+      2);
+  EXPECT_EQ(test_support::Run({LPVMPC, "report", run, "-o", page}).status, 0);
+  EXPECT_GT(std::filesystem::file_size(page), 100'000u);
 }
 
 TEST(Lpvmpc, MissingScenarioIsNamed) {

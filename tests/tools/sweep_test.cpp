@@ -100,6 +100,80 @@ TEST(TimeHistogram, PercentilesAreThoseOfTheTimesWithinTwoPercent) {
   }
 }
 
+// ---- the outcome of a summary
+
+// Each figure that is bad, alone and together with those that count less.
+TEST(SweepOutcomeTest, WorstOfWhatHappenedIsTheOutcome) {
+  using enum SweepOutcome;
+  using enum PossibleWay;
+  sim::Expectations expect;
+  expect.max_speed_excess_mps = 1.0;
+  expect.max_end_overshoot_m = 0.3;
+  sim::Summary summary;
+  summary.completed = true;
+  summary.steps = 100;
+  summary.max_speed_excess_mps = 0.9;
+  summary.end_overshoot_m = 0.2;
+  const auto outcome = [&](PossibleWay way = kPass) { return tools::OutcomeOf(summary, expect, way); };
+  EXPECT_EQ(outcome(), kPassed);
+  summary.end_overshoot_m = 0.4;
+  EXPECT_EQ(outcome(), kOverrun);
+  EXPECT_EQ(tools::ReasonOf(kOverrun, summary), "0.40 m past the end");
+  summary.max_speed_excess_mps = 1.25;
+  EXPECT_EQ(outcome(), kTooFast);
+  EXPECT_EQ(tools::ReasonOf(kTooFast, summary), "1.2 m/s above the target speed");
+  summary.completed = false;
+  EXPECT_EQ(outcome(), kFailed);
+  summary.longest_free_standstill_s = 5.1;
+  EXPECT_EQ(outcome(), kDeadlock);
+  EXPECT_EQ(tools::ReasonOf(kDeadlock, summary), "stood for 5.1 s though the way was free");
+  summary.safe_stops = 2;
+  EXPECT_EQ(outcome(), kSafeStop);
+  EXPECT_EQ(outcome(kStop), kSafeStop);
+  EXPECT_EQ(outcome(kNone), kDeadlock) << "a safe stop is right where there is no way";
+  EXPECT_EQ(tools::ReasonOf(kSafeStop, summary), "2 safe stops");
+  summary.contact_step = 50;
+  summary.contact_fault = sim::ContactFault::kTheirs;
+  EXPECT_EQ(outcome(), kStruck);
+  summary.off_road_step = 40;
+  EXPECT_EQ(outcome(), kOffRoad);
+  summary.contact_fault = sim::ContactFault::kOurs;
+  EXPECT_EQ(outcome(), kOffRoad);
+  summary.contact_step = 40;
+  EXPECT_EQ(outcome(), kContact);
+}
+
+TEST(SweepOutcomeTest, StandingBeforeTheEndIsStoppedUnlessItWasTooFast) {
+  sim::Summary summary;
+  summary.standing = true;
+  summary.max_speed_excess_mps = 2.0;
+  sim::Expectations expect;
+  EXPECT_EQ(tools::OutcomeOf(summary, expect, PossibleWay::kStop), SweepOutcome::kStopped);
+  expect.max_speed_excess_mps = 1.0;
+  EXPECT_EQ(tools::OutcomeOf(summary, expect, PossibleWay::kStop), SweepOutcome::kTooFast);
+}
+
+TEST(SweepOutcomeTest, BeingUnderWayWhereOneCanOnlyStopIsStopped) {
+  sim::Summary summary;
+  summary.steps = 100;
+  EXPECT_EQ(tools::OutcomeOf(summary, {}, PossibleWay::kStop), SweepOutcome::kStopped);
+  EXPECT_EQ(tools::OutcomeOf(summary, {}, PossibleWay::kPass), SweepOutcome::kFailed);
+  summary.steps = 0;
+  EXPECT_EQ(tools::OutcomeOf(summary, {}, PossibleWay::kStop), SweepOutcome::kFailed);
+}
+
+TEST(SweepOutcomeTest, NamesAndFailuresAreThoseThatAreSaid) {
+  std::set<std::string> names;
+  int failures = 0;
+  for (const SweepOutcome outcome : tools::kAllOutcomes) {
+    names.insert(tools::NameOf(outcome));
+    failures += static_cast<int>(tools::IsFailure(outcome));
+    EXPECT_EQ(tools::kAllOutcomes[static_cast<std::size_t>(outcome)], outcome);
+  }
+  EXPECT_EQ(names.size(), 10u);
+  EXPECT_EQ(failures, 7);
+}
+
 // ---- a drive and its outcome
 
 tools::RandomScenario WithoutObstacles(std::uint64_t seed) {
@@ -110,7 +184,7 @@ tools::RandomScenario WithoutObstacles(std::uint64_t seed) {
 }
 
 SweepDrive DriveOf(const tools::RandomScenario& drawn) {
-  return tools::DriveSweepScenario(drawn, {}, "lpv").drive;
+  return tools::DriveSweepScenario(drawn, PossibleWay::kPass, {}, "lpv").drive;
 }
 
 TEST(SweepDrive, RoadWithoutObstaclesIsPassed) {
@@ -151,7 +225,8 @@ TEST(SweepDrive, DriveThatTheDriverBrakesToAStopIsStopped) {
   drawn.scenario.driver.brake_at = 1.0;
   drawn.scenario.road =
       control::RoadBounds{.left = 20.0, .right = -20.0};  // wide, since the driver does not steer
-  EXPECT_EQ(tools::DriveSweepScenario(drawn, slow, "lpv").drive.outcome, SweepOutcome::kStopped);
+  EXPECT_EQ(tools::DriveSweepScenario(drawn, PossibleWay::kPass, slow, "lpv").drive.outcome,
+            SweepOutcome::kStopped);
 }
 
 TEST(SweepDrive, DriveWithoutAnEngagementIsFailed) {
@@ -215,8 +290,8 @@ SweepResult MadeUp() {
 TEST(SweepTable, CountsOutcomesAndTakesMediansOverWhatPassed) {
   const auto table = tools::Tabulate(MadeUp());
   ASSERT_EQ(table.size(), 2u);
-  EXPECT_THAT(table[0].outcomes, ElementsAre(1, 1, 1, 1, 0));
-  EXPECT_THAT(table[1].outcomes, ElementsAre(2, 0, 2, 0, 0));
+  EXPECT_THAT(table[0].outcomes, ElementsAre(1, 1, 0, 1, 1, 0, 0, 0, 0, 0));
+  EXPECT_THAT(table[1].outcomes, ElementsAre(2, 0, 0, 2, 0, 0, 0, 0, 0, 0));
   EXPECT_EQ(table[0].passed_of_passable, 1);
   EXPECT_EQ(table[1].passed_of_passable, 2);
   EXPECT_EQ(table[0].failures_of_possible, 1);
@@ -312,6 +387,22 @@ TEST_F(Parts, JoinedGiveTheWholeByteForByte) {
             tools::TimingJson(whole.result).at("lpv").at("steps"));
 }
 
+TEST_F(Parts, WithTrafficGiveTheWholeToo) {
+  SweepSetup setup = Small();
+  setup.ranges.traffic = true;
+  setup.controllers = {"lpv"};
+  const SweepPart whole = tools::DriveSweep(setup, {}, 2);
+  std::vector<std::filesystem::path> files;
+  for (const int i : {2, 1})
+    files.push_back(Write(tools::DriveSweep(setup, {.index = i, .of = 2}, 1), std::to_string(i)));
+  EXPECT_EQ(tools::ToJson(tools::MergeParts(files)).dump(), tools::ToJson(whole.result).dump());
+  EXPECT_NE(whole.result.scenarios[0].description,
+            tools::DrawScenario(whole.result.scenarios[0].seed, {}).scenario.description);
+  EXPECT_EQ(setup.Describe(), "4 scenarios with traffic of seed 11, 8..20 m/s, mu 0.4..1, by lpv");
+  EXPECT_EQ(setup.CommandToDriveAgain(),
+            "lpvmpc run --sweep-seed SEED --traffic --speed 8 20 --mu 0.4 1 --controller NAME");
+}
+
 TEST_F(Parts, MoreShardsThanScenariosLeaveSomeEmpty) {
   std::vector<std::filesystem::path> files;
   for (int i = 1; i <= 6; ++i)
@@ -336,6 +427,8 @@ TEST_F(Parts, OfAnotherSweepAreRefusedWithTheirFile) {
               AllOf(HasSubstr(place), HasSubstr("8..21 m/s")));
   EXPECT_THAT(error([](SweepSetup& s) { s.ranges.mu.high = 1.1; }),
               AllOf(HasSubstr(place), HasSubstr("mu 0.4..1.1")));
+  EXPECT_THAT(error([](SweepSetup& s) { s.ranges.traffic = true; }),
+              AllOf(HasSubstr(place), HasSubstr("with traffic")));
   EXPECT_THAT(error([](SweepSetup& s) {
                 s.controllers = {"lpv", "nmpc-affine"};
               }),

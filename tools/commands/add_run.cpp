@@ -15,10 +15,17 @@ Command AddRun(CLI::App& program) {
                                              "drive the scenario of this seed, as a sweep draws it")
                                 ->check(Seeds())
                                 ->excludes(scenario);
+  CLI::Option* traffic_key = command
+                                 ->add_option("--traffic-key", options->traffic_key,
+                                              "drive the scenario with traffic that falsify names so")
+                                 ->excludes(scenario)
+                                 ->excludes(sweep_seed);
   AddRanges(*command, options->ranges);
-  for (const char* range : {"--speed", "--mu"}) command->get_option(range)->needs(sweep_seed);
+  AddTraffic(*command, options->ranges);
+  command->get_option("--traffic")->needs(sweep_seed);
   command->add_option("--config", options->config, "daemon's configuration, instead of the scenario's")
-      ->excludes(sweep_seed);
+      ->excludes(sweep_seed)
+      ->excludes(traffic_key);
   command->add_option("--controller", options->controller,
                       ControllerList() + ", instead of the configuration's");
   command->add_option("--log", options->log, "write every frame to this candump log");
@@ -30,7 +37,13 @@ Command AddRun(CLI::App& program) {
                       "write every quadratic problem of the controller into this folder, for bench qp");
   command->add_flag("--json", options->json, "print the summary as JSON");
   return {.app = command, .run = [command, options] {
-            if (!options->sweep_seed) RequireOption(*command, "--scenario");
+            if (!options->drawn()) {
+              for (const char* range : {"--speed", "--mu"}) {
+                if (command->count(range) > 0)
+                  throw CLI::RequiresError(range, "--sweep-seed or --traffic-key");
+              }
+              RequireOption(*command, "--scenario");
+            }
             return Run(*options, std::cout);
           }};
 }

@@ -36,6 +36,7 @@ std::vector<Command> AddSweep(CLI::App& program) {
       ->check(CLI::Range(1, 1'000'000));
   command->add_option("--seed", options->setup.seed, "seed of the sweep; required")->check(Seeds());
   AddRanges(*command, options->setup.ranges);
+  AddTraffic(*command, options->setup.ranges);
   command
       ->add_option("--controller", options->setup.controllers,
                    fmt::format("one or several of {}", fmt::join(SweepControllers(), ", ")))

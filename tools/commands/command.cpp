@@ -28,6 +28,11 @@ void AddRanges(CLI::App& command, ScenarioRanges& ranges) {
   add("--mu", ranges.mu, "friction coefficients of a sweep");
 }
 
+void AddTraffic(CLI::App& command, ScenarioRanges& ranges) {
+  command.add_flag("--traffic", ranges.traffic,
+                   "scenarios with traffic, instead of one to three obstacles on a road of constant width");
+}
+
 CLI::Range Seeds() {
   return {std::uint64_t{0}, kSeedEnd - 1};
 }

@@ -25,6 +25,7 @@ struct Command {
 [[nodiscard]] std::vector<Command> AddBench(CLI::App& program);
 [[nodiscard]] Command AddPaper(CLI::App& program);
 [[nodiscard]] std::vector<Command> AddSweep(CLI::App& program);
+[[nodiscard]] std::vector<Command> AddFalsify(CLI::App& program);
 [[nodiscard]] Command AddCatalogue(CLI::App& program);
 [[nodiscard]] Command AddReport(CLI::App& program);
 
@@ -34,6 +35,8 @@ struct Command {
 void RequireOption(const CLI::App& command, const char* option);
 // Adds "--speed LO HI" and "--mu LO HI", which set `ranges`; `ranges` must outlive the command.
 void AddRanges(CLI::App& command, ScenarioRanges& ranges);
+// Adds "--traffic", likewise.
+void AddTraffic(CLI::App& command, ScenarioRanges& ranges);
 [[nodiscard]] CLI::Range Seeds();
 // The project's scenarios, found relative to the program, both in a build folder and in an installation.
 [[nodiscard]] std::filesystem::path Scenarios(const char* part);

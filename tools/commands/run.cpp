@@ -22,6 +22,7 @@
 #include "tools/io/write_file.hpp"
 #include "tools/report/report.hpp"
 #include "tools/scenarios/random_scenario.hpp"
+#include "tools/scenarios/traffic_scenario.hpp"
 
 namespace tools {
 namespace {
@@ -33,9 +34,11 @@ struct Task {
 };
 
 Task LoadTask(const RunOptions& options) {
-  if (options.sweep_seed) {
+  if (options.drawn()) {
     CheckRanges(options.ranges);
-    const RandomScenario drawn = DrawScenario(*options.sweep_seed, options.ranges);
+    const RandomScenario drawn = options.sweep_seed
+                                     ? DrawScenario(*options.sweep_seed, options.ranges)
+                                     : DrawTraffic(PointOf(options.traffic_key), options.ranges);
     const std::string controller = options.controller.empty() ? "lpv-affine" : options.controller;
     const loop::Config config = ConfigFor(controller, options.ranges);
     return {.scenario = drawn.scenario, .config = config, .route = RouteFor(drawn, config)};
@@ -51,6 +54,8 @@ void WriteDriveFileOf(const RunOptions& options, const Task& task) {
   const std::string controller = loop::ControllerName(task.config.controller);
   if (options.sweep_seed) {
     WriteSweepDriveFile(options.out, *options.sweep_seed, options.ranges, controller);
+  } else if (options.drawn()) {
+    WriteTrafficDriveFile(options.out, options.traffic_key, options.ranges, controller);
   } else {
     WriteDriveFile(options.out, options.scenario,
                    options.config.empty() ? task.scenario.daemon_config : options.config, controller);

@@ -5,7 +5,11 @@
 //
 // or, for a scenario of a sweep,
 //
-//   sweep_seed = …, speed = [LO, HI], mu = [LO, HI], controller = "…"
+//   sweep_seed = …, traffic = false, speed = [LO, HI], mu = [LO, HI], controller = "…"
+//
+// or, for one with traffic that has a key (tools/scenarios/traffic_point.hpp),
+//
+//   traffic_key = "…", speed = [LO, HI], mu = [LO, HI], controller = "…"
 #pragma once
 
 #include <cstdint>
@@ -28,10 +32,12 @@ struct DriveFile {
 // Throws config::ConfigError with file, line and key if the file, or one that it names, is missing or wrong.
 [[nodiscard]] DriveFile LoadDriveFile(const std::filesystem::path& file);
 
-// Both write drive.toml into the folder of a run and throw std::runtime_error if it cannot be written.
+// Each writes drive.toml into the folder of a run and throws std::runtime_error if it cannot be written.
 void WriteDriveFile(const std::filesystem::path& run_dir, const std::filesystem::path& scenario,
                     const std::filesystem::path& config, const std::string& controller);
 void WriteSweepDriveFile(const std::filesystem::path& run_dir, std::uint64_t seed,
                          const ScenarioRanges& ranges, const std::string& controller);
+void WriteTrafficDriveFile(const std::filesystem::path& run_dir, const std::string& key,
+                           const ScenarioRanges& ranges, const std::string& controller);
 
 }  // namespace tools

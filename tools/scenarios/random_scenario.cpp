@@ -10,6 +10,7 @@
 
 #include "control/road/projection.hpp"
 #include "tools/scenarios/random.hpp"
+#include "tools/scenarios/traffic_scenario.hpp"
 
 namespace tools {
 namespace {
@@ -22,6 +23,7 @@ constexpr double kAfterLast = 0.8;                 // least time from the last e
 constexpr double kRunOut = 4.0;           // extension of the controller's road past the scenario's end [s]
 constexpr double kLateralShare = 0.35;    // share of μ g that the road's bends need at most
 constexpr double kSharpest = 1.0 / 30.0;  // curvature [1/m]
+constexpr double kMostExcess = 1.0;       // over the target speed [m/s]
 constexpr control::RoadBounds kRoad{.left = 4.0, .right = -4.0};
 // The start: no road reaches the map's bounds from here.
 constexpr double kStartX = 0.5 * (sim::kMapMinX + sim::kMapMaxX),
@@ -51,28 +53,15 @@ std::vector<control::RoutePiece> DrawRoad(Random& random, double speed, double d
   return pieces;
 }
 
-void DrawVehicle(Random& random, const Interval& mu, sim::Scenario& scenario) {
-  scenario.footprint = kVehicleFootprint;
-  sim::PlantParameters& plant = scenario.plant;
-  plant.tyre = sim::Tyre::kSaturating;
-  plant.mu = random.Uniform(mu.low, mu.high);
-  const double mass_factor = random.Uniform(0.8, 1.2);
-  plant.vehicle.m *= mass_factor;
-  plant.vehicle.I_z *= mass_factor;
-  const int delay = random.Integer(0, 1);
-  scenario.steering = {.time_constant = random.Uniform(0.0, 0.06),
-                       .rate = 0.7,
-                       .min = -sim::kSteeringStop,
-                       .max = sim::kSteeringStop,
-                       .delay_cycles = delay};
-  scenario.acceleration = {.time_constant = random.Uniform(0.0, 0.15),
-                           .rate = 20.0,
-                           .min = sim::kHardestBraking,
-                           .max = sim::kStrongestAcceleration,
-                           .delay_cycles = delay};
-  const double noise = random.Uniform(0.0, 1.0);
-  scenario.sensors = {
-      .position = 0.05 * noise, .speed = 0.05 * noise, .heading = 0.004 * noise, .yaw_rate = 0.01 * noise};
+DrawnVehicle DrawVehicle(Random& random, const Interval& mu) {
+  DrawnVehicle vehicle;
+  vehicle.mu = random.Uniform(mu.low, mu.high);
+  vehicle.mass_factor = random.Uniform(0.8, 1.2);
+  vehicle.delay_cycles = random.Integer(0, 1);
+  vehicle.steering_lag = random.Uniform(0.0, 0.06);
+  vehicle.acceleration_lag = random.Uniform(0.0, 0.15);
+  vehicle.noise = random.Uniform(0.0, 1.0);
+  return vehicle;
 }
 
 // An obstacle's velocity along the road and to its left [m/s]. Zero for two of three.
@@ -119,7 +108,7 @@ void DrawObstacles(Random& random, double duration, std::size_t count, sim::Scen
   }
 }
 
-std::string Describe(const sim::Scenario& scenario) {
+std::string Describe(const sim::Scenario& scenario, const DrawnVehicle& vehicle) {
   const auto moving = std::ranges::count_if(scenario.obstacles, [](const control::Obstacle& obstacle) {
     return obstacle.velocity_X != 0.0 || obstacle.velocity_Y != 0.0;
   });
@@ -128,16 +117,13 @@ std::string Describe(const sim::Scenario& scenario) {
                   scenario.obstacles.size(), scenario.obstacles.size() == 1 ? "" : "s");
   if (moving > 0) text += fmt::format(", {} moving", moving);
   if (!scenario.appears_at.empty()) text += fmt::format(", {} late", scenario.appears_at.size());
-  const control::VehicleParameters as_built;
-  return text + fmt::format(", mass x {:.2f}, steering lag {:.0f} ms, delay {} cycle{}, noise {:.0f} %",
-                            scenario.plant.vehicle.m / as_built.m, 1e3 * scenario.steering.time_constant,
-                            scenario.steering.delay_cycles, scenario.steering.delay_cycles == 1 ? "" : "s",
-                            100.0 * scenario.sensors.position / 0.05);
+  return text + ", " + Describe(vehicle);
 }
 
 }  // namespace
 
 RandomScenario DrawScenario(std::uint64_t seed, const ScenarioRanges& ranges) {
+  if (ranges.traffic) return DrawTraffic(PointOf(seed), ranges);
   Random random(seed);
   const double speed = random.Uniform(ranges.speed.low, ranges.speed.high);
   const int obstacles = random.Integer(1, 3);
@@ -150,13 +136,15 @@ RandomScenario DrawScenario(std::uint64_t seed, const ScenarioRanges& ranges) {
   sim::Scenario scenario(control::Route::FromPieces(start, speed, pieces), kRoad);
   scenario.name = fmt::format("sweep scenario {}", seed);
   scenario.seed = seed;
-  DrawVehicle(random, ranges.mu, scenario);
+  const DrawnVehicle vehicle = DrawVehicle(random, ranges.mu);
+  Equip(vehicle, scenario);
   scenario.PlaceVehicle(0.0, random.Uniform(0.9, 1.1) * speed, random.Uniform(-0.8, 0.8),
                         random.Uniform(-0.03, 0.03));
   DrawObstacles(random, duration, static_cast<std::size_t>(obstacles), scenario);
-  scenario.description = Describe(scenario);
+  scenario.description = Describe(scenario, vehicle);
   scenario.expect.min_clearance_m = 0.0;
   scenario.expect.min_road_margin_m = 0.0;
+  scenario.expect.max_speed_excess_mps = kMostExcess;
 
   pieces.push_back({.length = kRunOut * speed});
   return {.scenario = std::move(scenario),

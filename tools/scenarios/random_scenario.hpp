@@ -7,23 +7,23 @@
 //   and delay, sensor noise; its initial place, heading and speed deviate from the road's middle and the target speed.
 // - Obstacles: ellipses, each met at least 2.5 s after the start or the previous one if the target speed is kept. About
 //   one in three moves, about one in five is perceived late; for about half of them the passing side is prescribed.
+//
+// With ranges.traffic it is another one: traffic_scenario.hpp.
 #pragma once
 
 #include <cstdint>
 
 #include "config/route_file.hpp"
 #include "sim/scenario.hpp"
+#include "tools/scenarios/drawn_vehicle.hpp"
 #include "tools/scenarios/scenario_ranges.hpp"
 
 namespace tools {
 
-// The vehicle's footprint in every scenario.
-inline constexpr control::Footprint kVehicleFootprint{.front = 1.95, .rear = 2.30, .half_width = 0.90};
-
 struct RandomScenario {
   sim::Scenario scenario;  // its description is one line that lists what was drawn
-  // The controller's route: that of the scenario, extended straight ahead so that a long horizon can plan up to the
-  // scenario's end.
+  // The controller's route: that of the scenario, without traffic extended straight ahead so that a long horizon can plan
+  // up to the scenario's end.
   config::RouteFile route;
 };
 

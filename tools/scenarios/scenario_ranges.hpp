@@ -1,4 +1,4 @@
-// The ranges from which the scenarios of a sweep are drawn.
+// What the scenarios of a sweep are drawn from.
 #pragma once
 
 namespace tools {
@@ -12,6 +12,7 @@ struct Interval {
 struct ScenarioRanges {
   Interval speed{8.0, 20.0};  // target speed [m/s]
   Interval mu{0.4, 1.0};      // friction coefficient of the road [1]
+  bool traffic = false;       // with traffic (traffic_scenario.hpp), instead of one to three obstacles
   bool operator==(const ScenarioRanges&) const = default;
 };
 

@@ -1,8 +1,6 @@
 #include "tools/sweep/sweep_drive.hpp"
 
 #include <cmath>
-#include <fmt/format.h>
-#include <tuple>
 
 #include "tools/drive/drive_figures.hpp"
 #include "tools/drive/sweep_config.hpp"
@@ -10,21 +8,8 @@
 namespace tools {
 namespace {
 
-SweepOutcome OutcomeOf(const sim::Summary& summary) {
-  const auto& [contact, off_road] = std::tie(summary.contact_step, summary.off_road_step);
-  if (contact && (!off_road || *contact <= *off_road)) return SweepOutcome::kContact;
-  if (off_road) return SweepOutcome::kOffRoad;
-  if (summary.completed) return SweepOutcome::kPassed;
-  return summary.standing ? SweepOutcome::kStopped : SweepOutcome::kFailed;
-}
-
 std::string WhyOf(SweepOutcome outcome, const DriveFigures& figures) {
-  std::string why;
-  if (outcome == SweepOutcome::kContact)
-    why = fmt::format("contact at step {}", *figures.summary.contact_step);
-  if (outcome == SweepOutcome::kOffRoad)
-    why = fmt::format("off the road at step {}", *figures.summary.off_road_step);
-  if (outcome == SweepOutcome::kFailed) why = figures.summary.steps > 0 ? "end not reached" : "never engaged";
+  std::string why = ReasonOf(outcome, figures.summary);
   if (figures.first_failure) why += (why.empty() ? "" : "; ") + ToText(*figures.first_failure);
   return why;
 }
@@ -35,23 +20,7 @@ std::optional<double> Finite(const std::optional<double>& value) {
 
 }  // namespace
 
-const char* NameOf(SweepOutcome outcome) {
-  switch (outcome) {
-    case SweepOutcome::kPassed:
-      return "passed";
-    case SweepOutcome::kStopped:
-      return "stopped";
-    case SweepOutcome::kContact:
-      return "contact";
-    case SweepOutcome::kOffRoad:
-      return "off-road";
-    case SweepOutcome::kFailed:
-      break;
-  }
-  return "failed";
-}
-
-TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, const ScenarioRanges& ranges,
+TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, PossibleWay way, const ScenarioRanges& ranges,
                                    const std::string& controller,
                                    const std::function<void(const can::Frame&)>& frame) {
   const control::MpcSettings weights;
@@ -59,13 +28,17 @@ TimedSweepDrive DriveSweepScenario(const RandomScenario& drawn, const ScenarioRa
   const DriveFigures figures = MeasureDrive(drawn.scenario, config, RouteFor(drawn, config),
                                             {.Q = weights.Q, .R = weights.R, .along = false}, frame);
   const sim::Summary& summary = figures.summary;
-  const SweepOutcome outcome = OutcomeOf(summary);
+  const SweepOutcome outcome = OutcomeOf(summary, drawn.scenario.expect, way);
   return {.drive = {.outcome = outcome,
                     .why = WhyOf(outcome, figures),
                     .steps = summary.steps,
                     .infeasible_steps = summary.infeasible_steps,
+                    .safe_stops = summary.safe_stops,
                     .min_clearance_m = Finite(summary.min_clearance_m),
                     .min_road_margin_m = Finite(summary.min_road_margin_m),
+                    .longest_free_standstill_s = summary.longest_free_standstill_s,
+                    .max_speed_excess_mps = Finite(summary.max_speed_excess_mps),
+                    .end_overshoot_m = Finite(summary.end_overshoot_m),
                     .cost = Finite(figures.cost),
                     .rms_steering_rate = Finite(figures.rms_steering_rate),
                     .rms_jerk = Finite(figures.rms_jerk)},

@@ -37,23 +37,28 @@ ordered_json DriveJson(const SweepDrive& drive) {
           {"why", drive.why},
           {"steps", drive.steps},
           {"infeasible_steps", drive.infeasible_steps},
+          {"safe_stops", drive.safe_stops},
           {"min_clearance_m", OrNull(drive.min_clearance_m)},
           {"min_road_margin_m", OrNull(drive.min_road_margin_m)},
+          {"longest_free_standstill_s", drive.longest_free_standstill_s},
+          {"max_speed_excess_m_s", OrNull(drive.max_speed_excess_mps)},
+          {"end_overshoot_m", OrNull(drive.end_overshoot_m)},
           {"cost", OrNull(drive.cost)},
           {"rms_steering_rate_rad_s", OrNull(drive.rms_steering_rate)},
           {"rms_jerk_m_s3", OrNull(drive.rms_jerk)}};
 }
 
 SweepDrive DriveOf(const ordered_json& json) {
-  using enum SweepOutcome;
-  constexpr std::array kOutcomes{kPassed, kStopped, kContact, kOffRoad, kFailed};
-  static_assert(kOutcomes.size() == kSweepOutcomes);
-  return {.outcome = Named(kOutcomes, json.at("outcome").get<std::string>()),
+  return {.outcome = Named(kAllOutcomes, json.at("outcome").get<std::string>()),
           .why = json.at("why"),
           .steps = json.at("steps"),
           .infeasible_steps = json.at("infeasible_steps"),
+          .safe_stops = json.at("safe_stops"),
           .min_clearance_m = NumberOrNone(json.at("min_clearance_m")),
           .min_road_margin_m = NumberOrNone(json.at("min_road_margin_m")),
+          .longest_free_standstill_s = json.at("longest_free_standstill_s"),
+          .max_speed_excess_mps = NumberOrNone(json.at("max_speed_excess_m_s")),
+          .end_overshoot_m = NumberOrNone(json.at("end_overshoot_m")),
           .cost = NumberOrNone(json.at("cost")),
           .rms_steering_rate = NumberOrNone(json.at("rms_steering_rate_rad_s")),
           .rms_jerk = NumberOrNone(json.at("rms_jerk_m_s3"))};
@@ -76,6 +81,7 @@ ordered_json SetupJson(const SweepSetup& setup) {
           {"count", setup.count},
           {"speed_m_s", {ranges.speed.low, ranges.speed.high}},
           {"mu", {ranges.mu.low, ranges.mu.high}},
+          {"traffic", ranges.traffic},
           {"controllers", setup.controllers}};
 }
 
@@ -83,10 +89,11 @@ SweepSetup SetupOf(const ordered_json& json) {
   const auto interval = [&](const char* key) {
     return Interval{.low = json.at(key).at(0), .high = json.at(key).at(1)};
   };
-  SweepSetup setup{.seed = json.at("seed"),
-                   .count = json.at("count"),
-                   .ranges = {.speed = interval("speed_m_s"), .mu = interval("mu")},
-                   .controllers = json.at("controllers")};
+  SweepSetup setup{
+      .seed = json.at("seed"),
+      .count = json.at("count"),
+      .ranges = {.speed = interval("speed_m_s"), .mu = interval("mu"), .traffic = json.at("traffic")},
+      .controllers = json.at("controllers")};
   CheckSetup(setup);
   return setup;
 }
@@ -130,8 +137,7 @@ ordered_json TableJson(const SweepResult& result) {
                      {"scenarios", result.scenarios.size()},
                      {"passable", passable},
                      {"stop_possible", stop}};
-    for (int i = 0; i < kSweepOutcomes; ++i)
-      row[NameOf(static_cast<SweepOutcome>(i))] = line.outcomes[static_cast<std::size_t>(i)];
+    for (const SweepOutcome outcome : kAllOutcomes) row[NameOf(outcome)] = line.Count(outcome);
     row["passed_of_passable"] = line.passed_of_passable;
     row["failures_of_possible"] = line.failures_of_possible;
     row["median_cost_ratio_to_nmpc"] = OrNull(line.cost_ratio);

@@ -21,23 +21,20 @@ std::string OrDash(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
 }
 
-ordered_json TableSection(const SweepResult& result) {
+ordered_json OutcomesSection(const SweepResult& result) {
+  const int passable = CountWays(result, PossibleWay::kPass), stop = CountWays(result, PossibleWay::kStop);
+  ordered_json columns{"controller"};
+  for (const SweepOutcome outcome : kAllOutcomes) columns.push_back(NameOf(outcome));
+  columns.push_back(fmt::format("passed of {} passable", passable));
+  columns.push_back(fmt::format("failures of {} possible", passable + stop));
   ordered_json rows = ordered_json::array();
-  const std::vector<ControllerFigures> table = Tabulate(result);
-  for (std::size_t c = 0; c < table.size(); ++c) {
-    const ControllerFigures& line = table[c];
+  for (const ControllerFigures& line : Tabulate(result)) {
     ordered_json row{line.controller};
-    for (const int scenarios : line.outcomes) row.push_back(std::to_string(scenarios));
+    for (const SweepOutcome outcome : kAllOutcomes) row.push_back(std::to_string(line.Count(outcome)));
     row.push_back(std::to_string(line.passed_of_passable));
     row.push_back(std::to_string(line.failures_of_possible));
-    row.push_back(fmt::format("{:.3f}", 1e3 * result.times[c].Percentile(0.5)));
-    row.push_back(fmt::format("{:.3f}", 1e3 * result.times[c].Percentile(0.99)));
-    row.push_back(OrDash(line.cost_ratio, 3));
-    row.push_back(OrDash(line.steering_rate, 3));
-    row.push_back(OrDash(line.jerk, 2));
     rows.push_back(std::move(row));
   }
-  const int passable = CountWays(result, PossibleWay::kPass), stop = CountWays(result, PossibleWay::kStop);
   return {
       {"type", "table"},
       {"title", "Outcomes"},
@@ -45,16 +42,32 @@ ordered_json TableSection(const SweepResult& result) {
        {fmt::format("Any vehicle at all finds a way past the obstacles in {} of {} scenarios; in {} it can "
                     "only stop before one, in {} neither.",
                     passable, result.scenarios.size(), stop, CountWays(result, PossibleWay::kNone))}},
-      {"columns",
-       {"controller", "passed", "stopped", "contact", "off the road", "failed",
-        fmt::format("passed of {} passable", passable),
-        fmt::format("failures of {} possible", passable + stop), "step, median [ms]", "step, p99 [ms]",
-        "cost to NMPC", "steering rate, RMS [rad/s]", "jerk, RMS [m/s³]"}},
+      {"columns", columns},
       {"rows", rows},
       {"note",
-       "Failures: contact, off the road, failed. Cost, steering rate and jerk are medians over the drives "
-       "that "
-       "passed, the cost over those that the NMPC passed too."}};
+       "Failures: all but passed, stopped and struck, which is touched by no fault of the vehicle's."}};
+}
+
+ordered_json FiguresSection(const SweepResult& result) {
+  ordered_json rows = ordered_json::array();
+  const std::vector<ControllerFigures> table = Tabulate(result);
+  for (std::size_t c = 0; c < table.size(); ++c) {
+    const ControllerFigures& line = table[c];
+    rows.push_back({line.controller, fmt::format("{:.3f}", 1e3 * result.times[c].Percentile(0.5)),
+                    fmt::format("{:.3f}", 1e3 * result.times[c].Percentile(0.99)), OrDash(line.cost_ratio, 3),
+                    OrDash(line.steering_rate, 3), OrDash(line.jerk, 2)});
+  }
+  return {
+      {"type", "table"},
+      {"title", "Figures"},
+      {"paragraphs", ordered_json::array()},
+      {"columns",
+       {"controller", "step, median [ms]", "step, p99 [ms]", "cost to NMPC", "steering rate, RMS [rad/s]",
+        "jerk, RMS [m/s³]"}},
+      {"rows", rows},
+      {"note",
+       "Cost, steering rate and jerk are medians over the drives that passed, the cost over those that the "
+       "NMPC passed too."}};
 }
 
 ordered_json FailuresSection(const SweepResult& result) {
@@ -70,13 +83,9 @@ ordered_json FailuresSection(const SweepResult& result) {
          result.setup.controllers[failure.controller],
          ordered_json{{"text", NameOf(drive.outcome)}, {"verdict", "bad"}}, drive.why});
   }
-  const ScenarioRanges& ranges = result.setup.ranges;
   return {{"type", "table"},
           {"title", "Failures"},
-          {"paragraphs",
-           {fmt::format(
-               "To drive one again: lpvmpc run --sweep-seed SEED --speed {} {} --mu {} {} --controller NAME",
-               ranges.speed.low, ranges.speed.high, ranges.mu.low, ranges.mu.high)}},
+          {"paragraphs", {"To drive one again: " + result.setup.CommandToDriveAgain()}},
           {"columns", {"scenario", "controller", "outcome", "why"}},
           {"rows", rows},
           {"note", all > kListed ? fmt::format("The first {} of {}.", kListed, all) : ""}};
@@ -91,7 +100,7 @@ void AddDrawing(const SweepResult& result, const SweepFailure& failure, ordered_
   const bus::VehicleBus bus = loop::OpenBus(config);
   DriveRecorder recorder(bus, config.mpc.t_s);
   const SweepDrive drive =
-      DriveSweepScenario(drawn, result.setup.ranges, controller, [&](const can::Frame& frame) {
+      DriveSweepScenario(drawn, scenario.way, result.setup.ranges, controller, [&](const can::Frame& frame) {
         recorder.Take(frame);
       }).drive;
   const std::string road = std::to_string(scenario.seed);
@@ -114,7 +123,7 @@ ordered_json SweepPage(const SweepResult& result) {
                     {"subtitle", result.setup.Describe()},
                     {"roads", ordered_json::object()},
                     {"drives", ordered_json::object()},
-                    {"sections", {TableSection(result)}}};
+                    {"sections", {OutcomesSection(result), FiguresSection(result)}}};
   const std::vector<SweepFailure> worst = WorstFailures(result, kDrawn);
   if (worst.empty()) return page;
   page["sections"].push_back(FailuresSection(result));

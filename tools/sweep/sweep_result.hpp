@@ -32,12 +32,14 @@ struct SweepResult {
 // One line of the table.
 struct ControllerFigures {
   std::string controller;
-  std::array<int, kSweepOutcomes> outcomes{};  // scenarios by SweepOutcome
-  int passed_of_passable = 0;                  // passed scenarios among those with PossibleWay::kPass
-  int failures_of_possible = 0;           // contact, off-road, failed where passing or stopping is possible
-  std::optional<double> cost_ratio = {};  // to the NMPC's cost; median over scenarios that both passed
+  std::array<int, kAllOutcomes.size()> outcomes{};  // scenarios by SweepOutcome
+  int passed_of_passable = 0;                       // passed scenarios among those with PossibleWay::kPass
+  int failures_of_possible = 0;                     // where passing or stopping is possible
+  std::optional<double> cost_ratio = {};     // to the NMPC's cost; median over scenarios that both passed
   std::optional<double> steering_rate = {};  // median RMS over the drives that passed [rad/s]
   std::optional<double> jerk = {};           // median RMS over the drives that passed [m/s³]
+
+  [[nodiscard]] int Count(SweepOutcome outcome) const { return outcomes[static_cast<std::size_t>(outcome)]; }
 };
 
 [[nodiscard]] std::vector<ControllerFigures> Tabulate(const SweepResult& result);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/scenarios/scenario_ranges.hpp"
+#include "tools/shards/shard.hpp"
 
 namespace tools {
 
@@ -15,25 +16,15 @@ struct SweepSetup {
   ScenarioRanges ranges;
   std::vector<std::string> controllers;  // names, each once
 
-  // "200 scenarios of seed 1, 8..20 m/s, mu 0.4..1, by lpv, nmpc"
+  // "200 scenarios with traffic of seed 1, 8..20 m/s, mu 0.4..1, by lpv, nmpc"
   [[nodiscard]] std::string Describe() const;
+  // "lpvmpc run --sweep-seed SEED --speed 8 20 --mu 0.4 1 --controller NAME"
+  [[nodiscard]] std::string CommandToDriveAgain() const;
   bool operator==(const SweepSetup&) const = default;
 };
 
 // Throws std::invalid_argument, naming the command-line option, if a range is bad (scenario_ranges.hpp), or a
 // controller is unknown or named twice, or none is named.
 void CheckSetup(const SweepSetup& setup);
-
-// Part `index`, from 1, of `of` parts: the scenarios index − 1, index − 1 + of, ...
-struct Shard {
-  int index = 1;
-  int of = 1;
-  bool operator==(const Shard&) const = default;
-
-  [[nodiscard]] std::vector<int> Indices(int count) const;
-};
-
-// Parses "i/n". Throws std::invalid_argument if `text` has another form, or unless 1 <= i <= n.
-[[nodiscard]] Shard ParseShard(const std::string& text);
 
 }  // namespace tools
