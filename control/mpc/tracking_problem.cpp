@@ -46,7 +46,7 @@ TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadPro
                                  const LpvAffineSettings& settings)
     : settings_(settings),
       profile_(&profile),
-      progress_(vehicle, profile, settings.t_s),
+      progress_(vehicle, profile, settings.t_s, Grip(settings)),
       traffic_(TrafficSettingsOf(vehicle, settings), profile) {
   const auto N = static_cast<std::size_t>(settings.horizon);
   z_ref_.assign(N + 1, State::Zero());

@@ -10,6 +10,7 @@ namespace {
 constexpr double kShortest = 40.0;  // least length of road that is planned for [m]
 constexpr double kSameTimes = 0.3;  // difference of arrival times that does not matter [s]
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kSlowest = 1.0;      // speed that the road allows, where costs are compared, at least [m/s]
 constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
 
 }  // namespace
@@ -17,13 +18,16 @@ constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
 ManoeuvreSearch::ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile)
     : settings_(settings),
       profile_(&profile),
+      limits_(profile.limits()),
       objects_(settings.footprint, settings.horizon, profile),
       corridor_({.footprint = settings.footprint,
                  .obstacle_margin = settings.obstacle_margin,
                  .road_margin = settings.road_margin,
                  .grip = settings.grip},
                 profile),
-      smoother_(settings.path) {}
+      smoother_(settings.path) {
+  limits_.emergency = std::min(limits_.emergency, kShareOfGrip * settings.grip);
+}
 
 void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle,
                             const LateralPoint& start) {
@@ -35,7 +39,7 @@ void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosit
 
 // Places the stations and reads the road's values there.
 void ManoeuvreSearch::Measure() {
-  const double accelerated = vehicle_.speed + 0.5 * profile_->limits().acceleration * settings_.horizon;
+  const double accelerated = vehicle_.speed + 0.5 * limits_.acceleration * settings_.horizon;
   const double fastest = std::max(std::min(accelerated, profile_->At(vehicle_.s).speed), vehicle_.speed);
   stations_ = {
       .s_0 = vehicle_.s,
@@ -77,8 +81,11 @@ bool ManoeuvreSearch::CanStop(const Candidate& candidate) const {
   return true;
 }
 
-double ManoeuvreSearch::FreeTime() const {
-  return stations_.length() / std::max(road_speed_[0], 1.0);
+// Time from station j to the last one at the road's speed [s].
+double ManoeuvreSearch::TimeFrom(std::size_t j) const {
+  double time = 0.0;
+  for (++j; j < kStations; ++j) time += stations_.spacing / std::max(road_speed_[j], kSlowest);
+  return time;
 }
 
 void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate) {
@@ -88,7 +95,7 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
   candidate.obstacle = Reason::kWayFree;
   candidate.blocker.reset();
   const auto plan_speeds = [&](const StationValues& allowed) {
-    return PlanSpeed(stations_, allowed, stops, vehicle_.speed, profile_->limits(), settings_.horizon);
+    return PlanSpeed(stations_, allowed, stops, vehicle_.speed, limits_, settings_.horizon);
   };
   candidate.speeds = plan_speeds(road_speed_);
   candidate.speed_limit = road_speed_;
@@ -139,7 +146,7 @@ void ManoeuvreSearch::LimitSpeed(Candidate& candidate) const {
     candidate.speed_limit[j] = limit;
   }
   KeepAbleToStop(candidate);
-  LimitInTime(candidate.speed_limit, stations_.spacing, profile_->limits().deceleration);
+  LimitInTime(candidate.speed_limit, stations_.spacing, limits_.deceleration);
 }
 
 // The vehicle must be able to stop in case another does: behind an object that moves ahead, until it has had time to leave the
@@ -159,8 +166,8 @@ void ManoeuvreSearch::KeepAbleToStop(Candidate& candidate) const {
       if (room < -settings_.footprint.front || (ahead && t > leaves_)) break;
       const double then = t + room / std::max(speeds.v[j], 1.0);
       if (crosses && !Covers(o, candidate.path.At(o.SAt(t)).offset, t, then, kApart)) continue;
-      candidate.speed_limit[j] = std::min(
-          candidate.speed_limit[j], StoppingSpeed(room, StopLine::kHard * profile_->limits().deceleration));
+      candidate.speed_limit[j] =
+          std::min(candidate.speed_limit[j], StoppingSpeed(room, StopLine::kHard * limits_.deceleration));
     }
   }
 }
@@ -212,10 +219,9 @@ double ManoeuvreSearch::Cost(const Candidate& candidate) const {
     cost += dt * (kOffset * d * d + kAcceleration * a * a);
   }
   const std::size_t last = speeds.count - 1;
-  const double left = stations_.length() - static_cast<double>(last) * stations_.spacing;
-  const double usual = std::max(road_speed_[last], 1.0);
+  const double usual = std::max(road_speed_[last], kSlowest);
   cost += kLasts * std::max(1.0 - speeds.v[last] / usual, 0.0);
-  return cost + (last + 1 == kStations ? speeds.t[last] : settings_.horizon + left / usual);
+  return cost + (last + 1 == kStations ? speeds.t[last] : settings_.horizon + TimeFrom(last));
 }
 
 std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) {
@@ -267,8 +273,8 @@ void ManoeuvreSearch::AddStop(std::optional<std::size_t> object, Candidate& cand
       line = {
           .s = front - settings_.headway * o.speed, .speed = o.speed, .spare = settings_.headway * o.speed};
     } else if (o.ComesTowards()) {
-      line = {.s = std::min(front, vehicle_.s + 0.5 * vehicle_.speed * vehicle_.speed /
-                                                    profile_->limits().deceleration)};
+      line = {.s =
+                  std::min(front, vehicle_.s + 0.5 * vehicle_.speed * vehicle_.speed / limits_.deceleration)};
     } else {
       line = {.s = front};
     }

@@ -57,10 +57,11 @@ class ManoeuvreSearch {
   [[nodiscard]] const Stations& stations() const { return stations_; }
   [[nodiscard]] const RoadObjects& objects() const { return objects_; }
   // Time to the last station at the road's speed [s].
-  [[nodiscard]] double FreeTime() const;
+  [[nodiscard]] double FreeTime() const { return TimeFrom(0); }
 
  private:
   void Measure();
+  [[nodiscard]] double TimeFrom(std::size_t j) const;
   void Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate);
   void AddStop(std::optional<std::size_t> object, Candidate& candidate) const;
   [[nodiscard]] std::optional<std::size_t> Blocker(const Candidate& candidate);
@@ -75,6 +76,7 @@ class ManoeuvreSearch {
 
   TrafficSettings settings_;
   const RoadProfile* profile_;
+  SpeedLimits limits_;  // the road's, and in an emergency not more than the tyres can give
   RoadObjects objects_;
   Corridor corridor_;
   PathSmoother smoother_;

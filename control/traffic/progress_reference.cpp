@@ -14,6 +14,8 @@ namespace {
 constexpr double kSpeedTolerance = 0.5;
 // Multiple of the comfortable deceleration at which the vehicle brakes to catch up with a profile.
 constexpr double kHarder = 1.5;
+// Share of the grip that the hardest braking uses.
+constexpr double kShareOfGrip = 0.9;
 // Time in which it makes up for a limit that it exceeds [s].
 constexpr double kCatchUp = 0.5;
 // Least length of the path per length of the road, on the inside of a bend.
@@ -30,16 +32,17 @@ double ProgressReference::SpeedAt(double s, double t, const Manoeuvre& manoeuvre
 // near stop line.
 double ProgressReference::Deceleration(double s, double upsilon, const Manoeuvre& manoeuvre) const {
   const SpeedLimits& limits = profile_->limits();
+  const double emergency = std::min(limits.emergency, kShareOfGrip * grip_);
   // A limit that has just come, because of one who cuts in, say, leaves less time.
   const double excess = std::max(upsilon - manoeuvre.SpeedLimitAt(s), 0.0);
-  double hardest = std::min(kHarder * limits.deceleration + excess / kCatchUp, limits.emergency);
+  double hardest = std::min(kHarder * limits.deceleration + excess / kCatchUp, emergency);
   for (const StopLine& stop : manoeuvre.stops()) {
     const double closing = std::max(upsilon - stop.speed, 0.0);
     const double needed =
         closing * closing / (2.0 * std::max(stop.s + stop.spare - s, RoadProfile::kStopWithin));
     const double to_stop = upsilon * upsilon / (2.0 * std::max(stop.RoomToStop(s), RoadProfile::kStopWithin));
     const double most = stop.spare > 0.0 ? std::max(needed, to_stop) : needed;
-    hardest = std::max(hardest, std::min(most, limits.emergency));
+    hardest = std::max(hardest, std::min(most, emergency));
   }
   return hardest;
 }

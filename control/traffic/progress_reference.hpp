@@ -22,8 +22,9 @@ namespace control {
 
 class ProgressReference {
  public:
-  ProgressReference(const VehicleParameters& vehicle, const RoadProfile& profile, double t_s)
-      : vehicle_(vehicle), profile_(&profile), t_s_(t_s) {}
+  // `grip`: acceleration that the tyres can give [m/s²].
+  ProgressReference(const VehicleParameters& vehicle, const RoadProfile& profile, double t_s, double grip)
+      : vehicle_(vehicle), profile_(&profile), t_s_(t_s), grip_(grip) {}
 
   // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
   // at the arc length s_0 and at about the speed `upsilon` [m/s].
@@ -37,6 +38,7 @@ class ProgressReference {
   VehicleParameters vehicle_;
   const RoadProfile* profile_;
   double t_s_;
+  double grip_;
 };
 
 }  // namespace control

@@ -263,6 +263,15 @@ TEST_F(MessageMonitorTest, LostFramesAddUpOverAllMessages) {
   EXPECT_EQ(monitor_.lost(), 3U);
 }
 
+TEST_F(MessageMonitorTest, StateIsStaleAfterTheLongerOfItsPeriodsAndTheGap) {
+  EXPECT_EQ(monitor_.StateStaleAfter(), 300ms);
+  monitor_.Reconfigure({.stale_periods = 8.0, .max_state_gap = 0.3});
+  EXPECT_EQ(monitor_.StateStaleAfter(), monitor_.StaleAfter(RxMessage::kPose));
+  EXPECT_GT(monitor_.StateStaleAfter(), 300ms);
+  monitor_.Reconfigure({.stale_periods = 1.0, .max_state_gap = 0.0});
+  EXPECT_EQ(monitor_.StateStaleAfter(), monitor_.StaleAfter(RxMessage::kPose));
+}
+
 TEST_F(MessageMonitorTest, MessageIsStaleAfterThreePeriods) {
   EXPECT_FALSE(monitor_.Fresh(RxMessage::kPose, now_));
   EXPECT_TRUE(Accepts(Pose(0)));

@@ -211,6 +211,31 @@ TEST(ModeMachine, SafeStopIsLeftAfterThreeCyclesInARowWithoutACause) {
   }
 }
 
+TEST(ModeMachine, OneStepOfRouteIsEnoughToDriveOnFromAStopAndNoneEndsTheDrive) {
+  ModeInputs inputs = Well();
+  inputs.plan_new = true;
+  inputs.standstill = true;
+  inputs.route_left = 1;
+  EXPECT_EQ(Next(In(bus::Mode::kActive), inputs).mode, bus::Mode::kActive);
+  ModeState state = Next(Next(In(bus::Mode::kSafeStop), inputs), inputs);
+  EXPECT_EQ(state.mode, bus::Mode::kSafeStop);
+  EXPECT_EQ(Next(state, inputs).mode, bus::Mode::kActive);
+}
+
+TEST(ModeMachine, EachStopCountsItsCyclesFromTheBeginning) {
+  ModeInputs fails = Well();
+  fails.plan_usable = false;
+  ModeInputs good = Well();
+  good.plan_new = true;
+  const ModeState stopped = Next(In(bus::Mode::kActive), fails);
+  ASSERT_EQ(stopped.mode, bus::Mode::kSafeStop);
+  EXPECT_EQ(stopped.recovered_cycles, 0);
+  EXPECT_EQ(stopped.standing_cycles, 0);
+  const ModeState almost = Next(Next(stopped, good), good);
+  EXPECT_EQ(almost.mode, bus::Mode::kSafeStop);
+  EXPECT_EQ(Next(almost, good).mode, bus::Mode::kActive);
+}
+
 TEST(ModeMachine, SafeStopHoldsTheVehicleAtStandstillForAWhile) {
   ModeInputs stands = Well();
   stands.standstill = true;

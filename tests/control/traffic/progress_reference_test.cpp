@@ -25,7 +25,7 @@ struct Filled {
     Manoeuvre manoeuvre;
     std::ranges::copy(stops, manoeuvre.stop_lines.begin());
     manoeuvre.stop_count = stops.size();
-    ProgressReference({}, profile, kTs).Fill(s_0, upsilon, manoeuvre, z, u, s, disturbance);
+    ProgressReference({}, profile, kTs, 100.0).Fill(s_0, upsilon, manoeuvre, z, u, s, disturbance);
   }
 };
 
