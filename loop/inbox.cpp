@@ -1,5 +1,6 @@
 #include "loop/inbox.hpp"
 
+#include <algorithm>
 #include <variant>
 
 namespace loop {
@@ -65,7 +66,9 @@ Snapshot Inbox::TakeSnapshot(base::Time now, Trigger trigger) {
                  .step = steps_.step(),
                  .state = state,
                  .state_new = trigger == Trigger::kState,
-                 .state_fresh = state.complete && now - state.timestamp <= monitor_.StateStaleAfter(),
+                 .state_fresh = state.complete &&
+                                now - state.timestamp <=
+                                    std::max(monitor_.StaleAfter(RxMessage::kPose), monitor_.max_state_gap()),
                  .state_rejected = rejected(RxMessage::kPose) || rejected(RxMessage::kMotion) ||
                                    rejected(RxMessage::kFeedback),
                  .obstacles = obstacles_.obstacles(),

@@ -123,10 +123,6 @@ base::Time MessageMonitor::StaleAfter(RxMessage message) const {
   return RowOf(message).stale_after;
 }
 
-base::Time MessageMonitor::StateStaleAfter() const {
-  return std::max(StaleAfter(RxMessage::kPose), max_state_gap_);
-}
-
 bool MessageMonitor::RecentlyRejected(RxMessage message, base::Time now) const {
   const Row& row = RowOf(message);
   return row.last_fault && now - row.refused_at <= row.stale_after;

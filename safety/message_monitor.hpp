@@ -101,8 +101,8 @@ class MessageMonitor {
   // Time since the last accepted frame; Time::max() before the first.
   [[nodiscard]] base::Time Age(RxMessage message, base::Time now) const;
   [[nodiscard]] base::Time StaleAfter(RxMessage message) const;
-  // Age above which a set of the state's messages is of no use: that of the pose, or if it is longer the gap that is bridged.
-  [[nodiscard]] base::Time StateStaleAfter() const;
+  // Age of the vehicle's state up to which its model bridges a gap.
+  [[nodiscard]] base::Time max_state_gap() const { return max_state_gap_; }
   // True if a frame of this message was refused within the last StaleAfter().
   [[nodiscard]] bool RecentlyRejected(RxMessage message, base::Time now) const;
   [[nodiscard]] Health HealthOf(RxMessage message, base::Time now) const;

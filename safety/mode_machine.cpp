@@ -98,7 +98,7 @@ ModeState Next(const ModeState& state, const ModeInputs& inputs, const ModeSetti
         enter(bus::Mode::kStandby, Cause::kOverride);
       } else if (withdrawn) {
         enter(bus::Mode::kStandby, Cause::kReleased);
-      } else if (inputs.silent && !inputs.standstill) {
+      } else if (inputs.silent) {
         enter(bus::Mode::kFault, SilenceCause(inputs));
       } else if (next.recovered_cycles == kHealthyCycles) {
         enter(bus::Mode::kActive, Cause::kRecovered);

@@ -20,7 +20,7 @@ constexpr double kRoadTolerance = 0.02;  // [m]
 constexpr double kGripTolerance = 0.3;   // [m/s²]
 constexpr double kLongest = 8.0;         // time within which objects count [s]
 constexpr std::size_t kMostSteps = 200;
-constexpr double kInFront = 0.5;  // least gap to an object before which the vehicle stops [m]
+constexpr double kReserve = 0.5;  // way by which a stop behind a plan may be longer [m]
 constexpr double kReach = 30.0;   // way that an acceleration adds within a plan [m]
 
 Vector2d CornerAt(const State& z, const Vector2d& corner) {
@@ -34,10 +34,8 @@ PlanCheck::PlanCheck(const PlanCheckSettings& settings, const RoadProfile& profi
       model_(BlendedModel(settings.vehicle), settings.t_s),
       profile_(&profile),
       objects_(settings.footprint, kLongest, profile),
-      reserved_(settings.footprint),
       mu_(settings.mu),
       path_(settings.vehicle, profile, kMostSteps, settings.footprint.half_width) {
-  reserved_.front += kInFront;
   predicted_.reserve(kMostSteps + 1);
   accelerations_.reserve(kMostSteps);
 }
@@ -79,7 +77,6 @@ void PlanCheck::Begin(const State& z, double s, std::span<const Obstacle> obstac
   for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
     const Obstacle& obstacle = obstacles_[objects_.objects()[k].index];
     touched_[k] = Overlap(obstacle, settings_.footprint, z) > 0.0;
-    near_[k] = Overlap(obstacle, reserved_, z) > 0.0;
   }
 }
 
@@ -128,8 +125,7 @@ StopVerdict PlanCheck::FindStop() {
     for (double s = s_; checked < after; ++checked) {
       const State& z = predicted_[checked + 1];
       s = profile_->Project(Position(z), s).s;
-      if (const auto contact =
-              Contact(settings_.footprint, z, s, static_cast<double>(checked + 1) * settings_.t_s)) {
+      if (const auto contact = Contact(z, s, static_cast<double>(checked + 1) * settings_.t_s)) {
         if (!verdict.violation) verdict.violation = contact;
         return verdict;
       }
@@ -140,7 +136,7 @@ StopVerdict PlanCheck::FindStop() {
                        .acceleration = accelerations_[after - 1],
                        .time = static_cast<double>(after) * settings_.t_s};
     for (const double deceleration : {settings_.stop_deceleration, settings_.hardest_deceleration}) {
-      const auto violation = Brake(reserved_, path_, from, deceleration);
+      const auto violation = Brake(path_, from, deceleration, kReserve);
       if (!violation)
         return {.stop = Stop{.after = static_cast<int>(after), .deceleration = deceleration},
                 .violation = {}};
@@ -155,16 +151,16 @@ StopVerdict PlanCheck::FindStop(const StopPath& path, double acceleration) const
       .distance = path.DistanceOf(Position(z_)), .speed = z_[kUpsilon], .acceleration = acceleration};
   StopVerdict verdict;
   for (const double deceleration : {settings_.stop_deceleration, settings_.hardest_deceleration}) {
-    verdict.violation = Brake(settings_.footprint, path, from, deceleration);
+    verdict.violation = Brake(path, from, deceleration, 0.0);
     if (!verdict.violation) return {.stop = Stop{.after = 0, .deceleration = deceleration}, .violation = {}};
   }
   return verdict;
 }
 
 // The first contact that is possible with a vehicle at `z`, beside the road's arc length s, `time` later.
-std::optional<ConstraintViolation> PlanCheck::Contact(const Footprint& footprint, const State& z, double s,
-                                                      double time) const {
-  const double reach = std::hypot(std::max(reserved_.front, reserved_.rear), reserved_.half_width);
+std::optional<ConstraintViolation> PlanCheck::Contact(const State& z, double s, double time) const {
+  const double reach = std::hypot(std::max(settings_.footprint.front, settings_.footprint.rear),
+                                  settings_.footprint.half_width);
   for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
     if (touched_[k]) continue;
     const RoadObject& object = objects_.objects()[k];
@@ -174,7 +170,7 @@ std::optional<ConstraintViolation> PlanCheck::Contact(const Footprint& footprint
     if (!object.crosses && std::abs(object.SAt(after) - s) > far) continue;
     const Obstacle then = Predict(obstacle, object, *profile_, after);
     if ((Position(z) - Vector2d(then.X, then.Y)).squaredNorm() > far * far) continue;
-    const double overlap = Overlap(then, near_[k] ? settings_.footprint : footprint, z);
+    const double overlap = Overlap(then, settings_.footprint, z);
     if (overlap <= 0.0) continue;
     const int step = static_cast<int>(std::lround(time / settings_.t_s));
     return ConstraintViolation{
@@ -197,24 +193,36 @@ double PlanCheck::Brakes(double speed, double curvature, double deceleration) co
   return std::min(deceleration, std::max(std::sqrt(std::max(most * most - across * across, 0.0)), kLeast));
 }
 
-// The first violation while the vehicle brakes along the path until it stands.
-std::optional<ConstraintViolation> PlanCheck::Brake(const Footprint& at_end, const StopPath& path,
-                                                    Braking from, double deceleration) const {
+// The first violation while the vehicle brakes along the path until it stands, and where it would be `reserve` [m] further.
+std::optional<ConstraintViolation> PlanCheck::Brake(const StopPath& path, Braking from, double deceleration,
+                                                    double reserve) const {
   constexpr double kStep = 0.1;      // [s]
   constexpr double kResponse = 0.1;  // time until the brakes respond [s]
   constexpr double kStands = 0.1;    // [m/s]
   const double begin = from.time, grip = mu_ * kGravity;
-  double s = path.At(from.distance).s;
-  bool first = true;
-  while (from.speed > kStands) {
+  const auto clear = [&](double distance) -> std::optional<ConstraintViolation> {
+    const StopPathPoint point = path.At(distance);
+    State z = State::Zero();
+    z[kX] = point.p.x();
+    z[kY] = point.p.y();
+    z[kPsi] = point.direction - point.curvature * SideslipPerCurvature(settings_.vehicle, from.speed);
+    if (const auto contact = Contact(z, point.s, from.time)) return contact;
+    double s = point.s;
+    const double out = OffRoad(z, s);
+    if (out <= off_road_) return std::nullopt;
+    const int step = static_cast<int>(std::lround(from.time / settings_.t_s));
+    return ConstraintViolation{.constraint = {.kind = ConstraintKind::kRoad, .index = 0, .step = step},
+                               .amount = out};
+  };
+  if (from.speed <= kStands) return std::nullopt;
+  for (bool first = true; from.speed > kStands; first = false) {
     const double curvature = path.At(from.distance).curvature;
     const double across = std::abs(from.speed * from.speed * curvature - a_y_);
-    const int step = static_cast<int>(std::lround(from.time / settings_.t_s));
     if (across > grip + kGripTolerance && !first) {
+      const int step = static_cast<int>(std::lround(from.time / settings_.t_s));
       return ConstraintViolation{.constraint = {.kind = ConstraintKind::kFriction, .index = 0, .step = step},
                                  .amount = across - grip};
     }
-    first = false;
     const double wanted = -Brakes(from.speed, curvature, deceleration);
     if (from.time >= begin + kResponse - 1e-9)
       from.acceleration = std::max(wanted, from.acceleration - settings_.jerk * kStep);
@@ -222,23 +230,9 @@ std::optional<ConstraintViolation> PlanCheck::Brake(const Footprint& at_end, con
     from.distance += 0.5 * (from.speed + next) * kStep;
     from.speed = next;
     from.time += kStep;
-
-    const StopPathPoint point = path.At(from.distance);
-    State z = State::Zero();
-    z[kX] = point.p.x();
-    z[kY] = point.p.y();
-    z[kPsi] = point.direction - point.curvature * SideslipPerCurvature(settings_.vehicle, from.speed);
-    const bool stands = from.speed <= kStands;
-    if (const auto contact = Contact(stands ? at_end : settings_.footprint, z, point.s, from.time))
-      return contact;
-    s = point.s;
-    const double out = OffRoad(z, s);
-    if (out > off_road_) {
-      return ConstraintViolation{.constraint = {.kind = ConstraintKind::kRoad, .index = 0, .step = step},
-                                 .amount = out};
-    }
+    if (const auto violation = clear(from.distance)) return violation;
   }
-  return std::nullopt;
+  return clear(from.distance + reserve);
 }
 
 }  // namespace control

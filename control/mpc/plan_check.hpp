@@ -63,8 +63,8 @@ class PlanCheck {
 
   // Finds the earliest and mildest stop behind the inputs that were validated last. Does not allocate.
   [[nodiscard]] StopVerdict FindStop();
-  // Likewise for a vehicle that brakes at once along `path`; it accelerates by `acceleration` [m/s²] so far. The gaps to what it
-  // stops before may be smaller than behind a plan, lest noise take the last stop away.
+  // Likewise for a vehicle that brakes at once along `path`; it accelerates by `acceleration` [m/s²] so far. It need not
+  // stop as far before things as behind a plan, lest noise take the last stop away.
   [[nodiscard]] StopVerdict FindStop(const StopPath& path, double acceleration) const;
   // The deceleration with which this stop begins now along `path`; without one, the hardest that the tyres can give [m/s²].
   [[nodiscard]] double Deceleration(const StopPath& path, const std::optional<Stop>& stop) const;
@@ -82,10 +82,9 @@ class PlanCheck {
   [[nodiscard]] double OffRoad(const State& z, double& s) const;
   [[nodiscard]] double BeyondGrip(const State& z, const Input& u) const;
   [[nodiscard]] double Brakes(double speed, double curvature, double deceleration) const;
-  [[nodiscard]] std::optional<ConstraintViolation> Contact(const Footprint& footprint, const State& z,
-                                                           double s, double time) const;
-  [[nodiscard]] std::optional<ConstraintViolation> Brake(const Footprint& at_end, const StopPath& path,
-                                                         Braking from, double deceleration) const;
+  [[nodiscard]] std::optional<ConstraintViolation> Contact(const State& z, double s, double time) const;
+  [[nodiscard]] std::optional<ConstraintViolation> Brake(const StopPath& path, Braking from,
+                                                         double deceleration, double reserve) const;
 
   PlanCheckSettings settings_;
   DiscreteModel model_;
@@ -94,9 +93,7 @@ class PlanCheck {
   State z_ = State::Zero();
   double s_ = 0.0;
   std::span<const Obstacle> obstacles_;
-  Footprint reserved_;                              // that must be clear at the end of a stop behind a plan
   std::array<bool, RoadObjects::kMost> touched_{};  // objects that the vehicle touches already
-  std::array<bool, RoadObjects::kMost> near_{};     // those in reserved_ already
   double off_road_ = 0.0;  // largest distance beyond the road's edge that counts as none [m]
   double a_y_ = 0.0;       // [m/s²]
   double mu_;

@@ -21,9 +21,8 @@ constexpr double kSpeedAtEdge = 40.0;  // speed at which the usual margin to the
 constexpr double kOtherSide = 1e3;     // where an object that must be passed on one side seems to end [m]
 
 // Distance at which the vehicle can just stop behind an object that brakes [m].
-double WayToStopBehind(double speed, double object_speed) {
-  constexpr double kDeceleration = 4.0;  // of the vehicle [m/s²]
-  return 0.5 * speed * speed / kDeceleration - 0.5 * object_speed * object_speed / StopLine::kHardest;
+double WayToStopBehind(double speed, double object_speed, double deceleration) {
+  return 0.5 * speed * speed / deceleration - 0.5 * object_speed * object_speed / StopLine::kHardest;
 }
 
 }  // namespace
@@ -37,9 +36,9 @@ std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::spa
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const RoadObject& object = objects[k];
     const double ahead_0 = object.SAt(t_0) - s_0, ahead_1 = object.SAt(t_1) - s_1;
-    const bool near =
-        t_0 > leaves && object.MovesAhead() && ahead_1 > 0.0 &&
-        ahead_1 - object.half_length - settings_.footprint.front < WayToStopBehind(speeds.v[j], object.speed);
+    const bool near = t_0 > leaves && object.MovesAhead() && ahead_1 > 0.0 &&
+                      ahead_1 - object.half_length - settings_.footprint.front <
+                          WayToStopBehind(speeds.v[j], object.speed, settings_.deceleration);
     if (near || object.IsBeside(settings_.footprint, ahead_0, ahead_1)) beside_[count++] = k;
   }
   return {beside_.data(), count};

@@ -27,6 +27,7 @@ struct CorridorSettings {
   double obstacle_margin = 0.3;  // usual gap to obstacles [m]
   double road_margin = 0.4;      // usual gap to the road's edges [m]
   double grip = 5.0;             // acceleration that the tyres can provide [m/s²]
+  double deceleration = 3.5;     // with which the vehicle could stop behind an object [m/s²]
 };
 
 // A way: at each station the gap that it goes through, and where.

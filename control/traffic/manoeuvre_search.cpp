@@ -11,23 +11,27 @@ constexpr double kShortest = 40.0;  // least length of road that is planned for 
 constexpr double kSameTimes = 0.3;  // difference of arrival times that does not matter [s]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kSlowest = 1.0;      // speed that the road allows, where costs are compared, at least [m/s]
-constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
+constexpr double kShareOfGrip = 0.9;  // of the grip that a path, or braking, may use
+
+SpeedLimits WithinGrip(SpeedLimits limits, double grip) {
+  limits.emergency = std::min(limits.emergency, kShareOfGrip * grip);
+  return limits;
+}
 
 }  // namespace
 
 ManoeuvreSearch::ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile)
     : settings_(settings),
       profile_(&profile),
-      limits_(profile.limits()),
+      limits_(WithinGrip(profile.limits(), settings.grip)),
       objects_(settings.footprint, settings.horizon, profile),
       corridor_({.footprint = settings.footprint,
                  .obstacle_margin = settings.obstacle_margin,
                  .road_margin = settings.road_margin,
-                 .grip = settings.grip},
+                 .grip = settings.grip,
+                 .deceleration = HardDeceleration(limits_)},
                 profile),
-      smoother_(settings.path) {
-  limits_.emergency = std::min(limits_.emergency, kShareOfGrip * settings.grip);
-}
+      smoother_(settings.path) {}
 
 void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle,
                             const LateralPoint& start) {
@@ -167,7 +171,7 @@ void ManoeuvreSearch::KeepAbleToStop(Candidate& candidate) const {
       const double then = t + room / std::max(speeds.v[j], 1.0);
       if (crosses && !Covers(o, candidate.path.At(o.SAt(t)).offset, t, then, kApart)) continue;
       candidate.speed_limit[j] =
-          std::min(candidate.speed_limit[j], StoppingSpeed(room, StopLine::kHard * limits_.deceleration));
+          std::min(candidate.speed_limit[j], StoppingSpeed(room, HardDeceleration(limits_)));
     }
   }
 }

@@ -14,8 +14,6 @@ namespace {
 constexpr double kSpeedTolerance = 0.5;
 // Multiple of the comfortable deceleration at which the vehicle brakes to catch up with a profile.
 constexpr double kHarder = 1.5;
-// Share of the grip that the hardest braking uses.
-constexpr double kShareOfGrip = 0.9;
 // Time in which it makes up for a limit that it exceeds [s].
 constexpr double kCatchUp = 0.5;
 // Least length of the path per length of the road, on the inside of a bend.
@@ -25,24 +23,23 @@ constexpr double kLeastStretch = 0.2;
 
 double ProgressReference::SpeedAt(double s, double t, const Manoeuvre& manoeuvre) const {
   const double limit = std::min(profile_->At(s).speed, manoeuvre.SpeedLimitAt(s));
-  return std::min(limit, SpeedBefore(manoeuvre.stops(), s, t, profile_->limits().deceleration));
+  return std::min(limit,
+                  SpeedBefore(manoeuvre.stops(), s, t, limits_.deceleration, HardDeceleration(limits_)));
 }
 
 // The vehicle brakes a little harder than comfortable to catch up with a profile, and as hard as necessary before a
 // near stop line.
 double ProgressReference::Deceleration(double s, double upsilon, const Manoeuvre& manoeuvre) const {
-  const SpeedLimits& limits = profile_->limits();
-  const double emergency = std::min(limits.emergency, kShareOfGrip * grip_);
   // A limit that has just come, because of one who cuts in, say, leaves less time.
   const double excess = std::max(upsilon - manoeuvre.SpeedLimitAt(s), 0.0);
-  double hardest = std::min(kHarder * limits.deceleration + excess / kCatchUp, emergency);
+  double hardest = std::min(kHarder * limits_.deceleration + excess / kCatchUp, limits_.emergency);
   for (const StopLine& stop : manoeuvre.stops()) {
     const double closing = std::max(upsilon - stop.speed, 0.0);
     const double needed =
         closing * closing / (2.0 * std::max(stop.s + stop.spare - s, RoadProfile::kStopWithin));
     const double to_stop = upsilon * upsilon / (2.0 * std::max(stop.RoomToStop(s), RoadProfile::kStopWithin));
     const double most = stop.spare > 0.0 ? std::max(needed, to_stop) : needed;
-    hardest = std::max(hardest, std::min(most, emergency));
+    hardest = std::max(hardest, std::min(most, limits_.emergency));
   }
   return hardest;
 }
@@ -52,7 +49,7 @@ void ProgressReference::Fill(double s_0, double upsilon, const Manoeuvre& manoeu
   const VehicleParameters vehicle = Disturbed(vehicle_, disturbance);
   const double slip = SideslipPerAcceleration(vehicle) * disturbance.a_y;
   const double steering = -UndersteerGradient(vehicle) * disturbance.a_y - disturbance.delta_0;
-  const double up = profile_->limits().acceleration * t_s_;
+  const double up = limits_.acceleration * t_s_;
   const double down = Deceleration(s_0, upsilon, manoeuvre) * t_s_;
 
   double place = s_0;

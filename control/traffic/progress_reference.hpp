@@ -10,6 +10,7 @@
 // where the terms in κ_r d' and in the road's change of curvature are neglected.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "control/road/road_profile.hpp"
@@ -24,7 +25,10 @@ class ProgressReference {
  public:
   // `grip`: acceleration that the tyres can give [m/s²].
   ProgressReference(const VehicleParameters& vehicle, const RoadProfile& profile, double t_s, double grip)
-      : vehicle_(vehicle), profile_(&profile), t_s_(t_s), grip_(grip) {}
+      : vehicle_(vehicle), profile_(&profile), limits_(profile.limits()), t_s_(t_s) {
+    constexpr double kShareOfGrip = 0.9;  // that the hardest braking uses
+    limits_.emergency = std::min(limits_.emergency, kShareOfGrip * grip);
+  }
 
   // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
   // at the arc length s_0 and at about the speed `upsilon` [m/s].
@@ -37,8 +41,8 @@ class ProgressReference {
 
   VehicleParameters vehicle_;
   const RoadProfile* profile_;
+  SpeedLimits limits_;  // the road's, and in an emergency not more than the tyres can give
   double t_s_;
-  double grip_;
 };
 
 }  // namespace control

@@ -13,14 +13,13 @@ constexpr double kStands = 0.05;  // [m/s]
 
 }  // namespace
 
-double SpeedBefore(std::span<const StopLine> stops, double s, double t, double deceleration) {
+double SpeedBefore(std::span<const StopLine> stops, double s, double t, double deceleration, double hard) {
   double speed = std::numeric_limits<double>::infinity();
   for (const StopLine& stop : stops) {
     const double distance = stop.s + stop.speed * t - s;
     const double over = distance < 0.0 ? kFallBack * distance : StoppingSpeed(distance, deceleration);
-    const double in_time =
-        stop.spare > 0.0 ? StoppingSpeed(stop.RoomToStop(s) + stop.speed * t, StopLine::kHard * deceleration)
-                         : std::numeric_limits<double>::infinity();
+    const double in_time = stop.spare > 0.0 ? StoppingSpeed(stop.RoomToStop(s) + stop.speed * t, hard)
+                                            : std::numeric_limits<double>::infinity();
     speed = std::min({speed, std::max(stop.speed + over, 0.0), in_time});
   }
   return speed;
@@ -43,8 +42,8 @@ SpeedPlan PlanSpeed(const Stations& stations, const StationValues& allowed, std:
   for (std::size_t j = 0; j + 1 < kStations; ++j) {
     const double v = plan.v[j];
     const double guess = plan.t[j] + ds / std::max(v, 1.0);
-    const double wanted =
-        std::min(limit[j + 1], SpeedBefore(stops, stations.At(j + 1), guess, limits.deceleration));
+    const double wanted = std::min(limit[j + 1], SpeedBefore(stops, stations.At(j + 1), guess,
+                                                             limits.deceleration, HardDeceleration(limits)));
     const double slowest = std::sqrt(std::max(v * v - 2.0 * limits.emergency * ds, 0.0));
     const double fastest = std::sqrt(v * v + 2.0 * limits.acceleration * ds);
     const double next = std::clamp(wanted, slowest, fastest);

@@ -1,6 +1,7 @@
 // The speed and the time of arrival at each station: as fast as the limits of speed, stop lines and acceleration allow.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 
@@ -19,7 +20,14 @@ struct SpeedPlan {
 };
 
 // The highest speed at arc length s and time t [s] before the stop lines; beyond a line, the vehicle falls back. [m/s]
-[[nodiscard]] double SpeedBefore(std::span<const StopLine> stops, double s, double t, double deceleration);
+// `hard`: deceleration with which the vehicle could stop if a line's object braked at its hardest [m/s²].
+[[nodiscard]] double SpeedBefore(std::span<const StopLine> stops, double s, double t, double deceleration,
+                                 double hard);
+
+// The deceleration that the vehicle counts on for that [m/s²].
+[[nodiscard]] inline double HardDeceleration(const SpeedLimits& limits) {
+  return std::min(2.0 * limits.deceleration, 0.75 * limits.emergency);
+}
 
 // Lowers the limits so that braking at `deceleration` [m/s²] meets each of them in time. [m/s]
 void LimitInTime(StationValues& limit, double spacing, double deceleration);

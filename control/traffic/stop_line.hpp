@@ -10,8 +10,6 @@ struct StopLine {
 
   // Deceleration at which an object that moves ahead is taken to be able to brake [m/s²].
   static constexpr double kHardest = 8.0;
-  // Multiple of the comfortable deceleration at which the vehicle is taken to stop then.
-  static constexpr double kHard = 2.0;
   // Distance in which a vehicle at arc length s must be able to stop in case the line's object brakes at its hardest [m].
   [[nodiscard]] double RoomToStop(double at) const {
     return s + spare + speed * speed / (2.0 * kHardest) - at;

@@ -98,7 +98,10 @@ TEST_F(ControlLoopTest, DecisionOfThePlanIsOnTheBus) {
   EXPECT_NEAR(waits.stop_distance, 7.3, 1e-9);
   EXPECT_NEAR(waits.speed_limit, 81.9, 1e-9);
 
-  EXPECT_EQ(TimerPeriod().manoeuvre.decision, bus::ManoeuvreDecision::kNone) << "no plan was made";
+  EXPECT_EQ(TimerPeriod().manoeuvre.decision, bus::ManoeuvreDecision::kWait) << "for the predicted state";
+  vehicle_.request.engage = false;
+  EXPECT_EQ(Period().manoeuvre.decision, bus::ManoeuvreDecision::kWait) << "the driver lets go in this cycle";
+  EXPECT_EQ(Period().manoeuvre.decision, bus::ManoeuvreDecision::kNone) << "no plan was made";
 }
 
 TEST_F(ControlLoopTest, EveryCommandAnswersTheCounterOfItsState) {

@@ -58,8 +58,8 @@ class PlannedTraffic : public ::testing::Test {
   }
   // Moves the vehicle by a step as planned: on its path, as fast as limits and stop lines allow.
   static void Drive(const Manoeuvre& manoeuvre, RoadPosition& vehicle) {
-    const double wanted = std::min(
-        {kSpeed, manoeuvre.SpeedLimitAt(vehicle.s), SpeedBefore(manoeuvre.stops(), vehicle.s, 0.0, 2.0)});
+    const double wanted = std::min({kSpeed, manoeuvre.SpeedLimitAt(vehicle.s),
+                                    SpeedBefore(manoeuvre.stops(), vehicle.s, 0.0, 2.0, 4.0)});
     vehicle.speed = std::clamp(wanted, vehicle.speed - 5.0 * kStep, vehicle.speed + 1.5 * kStep);
     vehicle.s += vehicle.speed * kStep;
     vehicle.lateral = manoeuvre.path.At(vehicle.s).offset;

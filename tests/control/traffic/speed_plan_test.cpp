@@ -95,15 +95,15 @@ TEST(SpeedPlan, BehindALineThatMovesItTakesOnItsSpeed) {
 
 TEST(SpeedPlan, BeyondALineTheVehicleFallsBack) {
   const StopLine line{.s = 60.0, .speed = 5.0};
-  const double at_line = SpeedBefore({&line, 1}, 70.0, 2.0, 2.0);
-  const double beyond = SpeedBefore({&line, 1}, 72.0, 2.0, 2.0);
+  const double at_line = SpeedBefore({&line, 1}, 70.0, 2.0, 2.0, 4.0);
+  const double beyond = SpeedBefore({&line, 1}, 72.0, 2.0, 2.0, 4.0);
   EXPECT_NEAR(at_line, 5.0, 1e-9);
   EXPECT_LT(beyond, 5.0);
   EXPECT_GT(beyond, 0.0);
-  EXPECT_EQ(SpeedBefore({&line, 1}, 200.0, 2.0, 2.0), 0.0) << "never backwards";
+  EXPECT_EQ(SpeedBefore({&line, 1}, 200.0, 2.0, 2.0, 4.0), 0.0) << "never backwards";
   const StopLine standing{.s = 60.0};
-  EXPECT_EQ(SpeedBefore({&standing, 1}, 60.1, 0.0, 2.0), 0.0);
-  EXPECT_TRUE(std::isinf(SpeedBefore({}, 0.0, 0.0, 2.0)));
+  EXPECT_EQ(SpeedBefore({&standing, 1}, 60.1, 0.0, 2.0, 4.0), 0.0);
+  EXPECT_TRUE(std::isinf(SpeedBefore({}, 0.0, 0.0, 2.0, 4.0)));
 }
 
 TEST(SpeedPlan, StandsWhereItMayNotDrive) {

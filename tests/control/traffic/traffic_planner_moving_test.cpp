@@ -101,11 +101,11 @@ TEST_F(TwoLanes, SlowVehicleIsOvertakenUnlessSomebodyComesTowardsIt) {
 
 TEST_F(TwoLanes, ReasonTellsWhetherOvertakingSavesTimeOrOnlyNeedsNoMore) {
   EXPECT_EQ(PlanAnew({Car(50.0, 0.0, 5.0)}).reason, Reason::kWayFree);
-  EXPECT_EQ(PlanAnew({Car(12.0, 0.0, 5.0)}).reason, Reason::kStayingCosts);
+  EXPECT_EQ(PlanAnew({Car(20.0, 0.0, 5.0)}).reason, Reason::kStayingCosts);
 }
 
 TEST_F(TwoLanes, WayForWhichItIsLateIsGivenUpAfterAFewCyclesOnly) {
-  const std::vector near{Car(5.0, 0.0, kSpeed - 1.0)};  // too near to change lanes behind it
+  const std::vector near{Car(10.0, 0.0, 8.0)};  // too near to change lanes behind it
   const Manoeuvre* manoeuvre = &Plan(near);
   EXPECT_EQ(manoeuvre->decision, Decision::kPass);
   EXPECT_EQ(manoeuvre->reason, Reason::kLateForNow);
