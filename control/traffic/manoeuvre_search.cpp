@@ -18,6 +18,12 @@ SpeedLimits WithinGrip(SpeedLimits limits, double grip) {
   return limits;
 }
 
+// A vehicle that stays behind keeps its distance anyway.
+double TimeToLeave(const Candidate& candidate, double leaves) {
+  if (candidate.stop_count > 0) return kNever;
+  return leaves;
+}
+
 }  // namespace
 
 ManoeuvreSearch::ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile)
@@ -108,7 +114,7 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
   candidate.speeds = plan_speeds(candidate.speed_limit);
   for (int round = 0; round < 2; ++round) {
     corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, settings_.horizon, squeeze,
-                   candidate.stop_count == 0 ? leaves_ : kNever, candidate.way);
+                   TimeToLeave(candidate, leaves_), candidate.way);
     const bool blocked = candidate.way.reached < candidate.speeds.count;
     if (blocked) {
       candidate.blocker = Blocker(candidate);
@@ -233,7 +239,7 @@ std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) 
   std::optional<std::size_t> blocker;
   double nearest = std::numeric_limits<double>::infinity();
   for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), candidate.speeds, j, 0.0,
-                                              candidate.stop_count == 0 ? leaves_ : kNever)) {
+                                              TimeToLeave(candidate, leaves_))) {
     const RoadObject& object = objects_.objects()[k];
     const double near = object.s - object.half_length;
     if (near < vehicle_.s - settings_.footprint.rear) continue;  // it comes from behind
