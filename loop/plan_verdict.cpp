@@ -14,17 +14,10 @@ bool Acceptable(const control::Plan& plan, int horizon) {
          std::ranges::all_of(plan.z, [](const control::State& z) { return z.allFinite(); });
 }
 
-// True if there is a clear stop behind the rest of the last plan.
-bool StopsLater(control::PlanCheck& check, const Present& present) {
-  if (present.plan.empty()) return false;
-  static_cast<void>(check.Validate(present.plan));
-  return check.FindStop().stop.has_value();
-}
-
 // True if a stop is clear that begins at once.
 bool StopsNow(const control::PlanCheck& check, const Present& present) {
   return present.stop_path != nullptr &&
-         check.FindStop(*present.stop_path, present.acceleration).stop.has_value();
+         check.FindStop(*present.stop_path, present.acceleration).deceleration.has_value();
 }
 
 }  // namespace
@@ -59,14 +52,20 @@ CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input
     const auto of_last = check.Validate(present.plan);
     verdict.ruled_out = !of_last || of_last->constraint.step > violation->constraint.step;
   }
-  if (!behind.stop) {
-    verdict.ruled_out = verdict.ruled_out || StopsLater(check, present) || StopsNow(check, present);
+  if (!behind.deceleration) {
+    verdict.ruled_out = verdict.ruled_out || StopsLater(check, present.plan) || StopsNow(check, present);
   }
   return verdict;
 }
 
+bool StopsLater(control::PlanCheck& check, std::span<const control::Input> plan) {
+  if (plan.empty()) return false;
+  static_cast<void>(check.Validate(plan));
+  return check.FindStop().deceleration.has_value();
+}
+
 bool StopIsDue(control::PlanCheck& check, const Present& present) {
-  return !StopsLater(check, present) && StopsNow(check, present);
+  return !StopsLater(check, present.plan) && StopsNow(check, present);
 }
 
 }  // namespace loop

@@ -39,6 +39,9 @@ struct CheckVerdict {
 [[nodiscard]] CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input> plan,
                                      const Present& present);
 
+// True if there is a clear stop behind the rest of a plan; empty: there is none.
+[[nodiscard]] bool StopsLater(control::PlanCheck& check, std::span<const control::Input> plan);
+
 // True if the vehicle must stop now: a stop is clear that begins at once, but none that begins later.
 [[nodiscard]] bool StopIsDue(control::PlanCheck& check, const Present& present);
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "control/road/keep_out.hpp"
-#include "loop/plan_verdict.hpp"
 
 namespace loop {
 namespace {
@@ -50,7 +49,9 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   }
   Estimate(known);
   Outcome outcome;
-  const Prediction prediction = Predict(known);
+  const Prediction prediction = request == PlanRequest::kNone
+                                    ? Prediction{.z = control::State::Zero(), .obstacles = {}}
+                                    : Predict(known);
   if (request == PlanRequest::kFirst) {
     controller_->Reset();
   }
@@ -145,11 +146,8 @@ control::Input Planner::StopInput(const Snapshot& known, const control::RoutePla
     reckoned << motion.p, motion.speed, 0.0, motion.psi, 0.0;
     check_->Begin(reckoned, place.s, obstacles_, disturbance(), mu_limit());
   }
-  const auto now = check_->FindStop(stop_path_, applied[control::kAcceleration]).stop;
-  if (!now && active_.Covers(known.step)) {
-    static_cast<void>(check_->Validate(active_.From(known.step)));
-    if (check_->FindStop().stop) return active_.At(known.step);
-  }
+  const auto now = check_->FindStop(stop_path_, applied[control::kAcceleration]).deceleration;
+  if (!now && StopsLater(*check_, active_.From(known.step))) return active_.At(known.step);
   stop[control::kAcceleration] = -check_->Deceleration(stop_path_, now);
   return stop;
 }

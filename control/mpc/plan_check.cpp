@@ -23,6 +23,10 @@ constexpr std::size_t kMostSteps = 200;
 constexpr double kReserve = 0.5;  // way by which a stop behind a plan may be longer [m]
 constexpr double kReach = 30.0;   // way that an acceleration adds within a plan [m]
 
+ConstraintViolation Violation(ConstraintKind kind, int index, int step, double amount) {
+  return {.constraint = {.kind = kind, .index = index, .step = step}, .amount = amount};
+}
+
 Vector2d CornerAt(const State& z, const Vector2d& corner) {
   return Position(z) + Rotate(z[kPsi], corner);
 }
@@ -93,22 +97,12 @@ std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u)
       const Obstacle& obstacle = obstacles_[object.index];
       const Obstacle then = Predict(obstacle, object, *profile_, step * settings_.t_s);
       const double overlap = Overlap(then, settings_.footprint, now);
-      if (overlap > 0.0) {
-        return ConstraintViolation{
-            .constraint = {.kind = ConstraintKind::kObstacle, .index = obstacle.id, .step = step},
-            .amount = overlap};
-      }
+      if (overlap > 0.0) return Violation(ConstraintKind::kObstacle, obstacle.id, step, overlap);
     }
     const double out = OffRoad(now, s);
-    if (out > off_road_) {
-      return ConstraintViolation{.constraint = {.kind = ConstraintKind::kRoad, .index = 0, .step = step},
-                                 .amount = out};
-    }
+    if (out > off_road_) return Violation(ConstraintKind::kRoad, 0, step, out);
     const double beyond = BeyondGrip(now, u[i]);
-    if (beyond > grip) {
-      return ConstraintViolation{.constraint = {.kind = ConstraintKind::kFriction, .index = 0, .step = step},
-                                 .amount = beyond};
-    }
+    if (beyond > grip) return Violation(ConstraintKind::kFriction, 0, step, beyond);
     predicted_.push_back(now);
     accelerations_.push_back(u[i][kAcceleration]);
   }
@@ -135,13 +129,9 @@ StopVerdict PlanCheck::FindStop() {
                        .speed = z[kUpsilon],
                        .acceleration = accelerations_[after - 1],
                        .time = static_cast<double>(after) * settings_.t_s};
-    for (const double deceleration : {settings_.stop_deceleration, settings_.hardest_deceleration}) {
-      const auto violation = Brake(path_, from, deceleration, kReserve);
-      if (!violation)
-        return {.stop = Stop{.after = static_cast<int>(after), .deceleration = deceleration},
-                .violation = {}};
-      if (after == 1) verdict.violation = violation;
-    }
+    const StopVerdict stop = Mildest(path_, from, kReserve);
+    if (stop.deceleration) return stop;
+    if (after == 1) verdict = stop;
   }
   return verdict;
 }
@@ -149,12 +139,20 @@ StopVerdict PlanCheck::FindStop() {
 StopVerdict PlanCheck::FindStop(const StopPath& path, double acceleration) const {
   const Braking from{
       .distance = path.DistanceOf(Position(z_)), .speed = z_[kUpsilon], .acceleration = acceleration};
+  return Mildest(path, from, 0.0);
+}
+
+StopVerdict PlanCheck::Mildest(const StopPath& path, const Braking& from, double reserve) const {
   StopVerdict verdict;
   for (const double deceleration : {settings_.stop_deceleration, settings_.hardest_deceleration}) {
-    verdict.violation = Brake(path, from, deceleration, 0.0);
-    if (!verdict.violation) return {.stop = Stop{.after = 0, .deceleration = deceleration}, .violation = {}};
+    verdict.violation = Brake(path, from, deceleration, reserve);
+    if (!verdict.violation) return {.deceleration = deceleration, .violation = {}};
   }
   return verdict;
+}
+
+int PlanCheck::StepAt(double time) const {
+  return static_cast<int>(std::lround(time / settings_.t_s));
 }
 
 // The first contact that is possible with a vehicle at `z`, beside the road's arc length s, `time` later.
@@ -171,18 +169,14 @@ std::optional<ConstraintViolation> PlanCheck::Contact(const State& z, double s, 
     const Obstacle then = Predict(obstacle, object, *profile_, after);
     if ((Position(z) - Vector2d(then.X, then.Y)).squaredNorm() > far * far) continue;
     const double overlap = Overlap(then, settings_.footprint, z);
-    if (overlap <= 0.0) continue;
-    const int step = static_cast<int>(std::lround(time / settings_.t_s));
-    return ConstraintViolation{
-        .constraint = {.kind = ConstraintKind::kObstacle, .index = obstacle.id, .step = step},
-        .amount = overlap};
+    if (overlap > 0.0) return Violation(ConstraintKind::kObstacle, obstacle.id, StepAt(time), overlap);
   }
   return std::nullopt;
 }
 
-double PlanCheck::Deceleration(const StopPath& path, const std::optional<Stop>& stop) const {
+double PlanCheck::Deceleration(const StopPath& path, const std::optional<double>& stop) const {
   return Brakes(z_[kUpsilon], path.At(path.DistanceOf(Position(z_))).curvature,
-                stop ? stop->deceleration : settings_.hardest_deceleration);
+                stop.value_or(settings_.hardest_deceleration));
 }
 
 // The tyres brake with what the bend leaves them, but always a little [m/s²].
@@ -210,19 +204,14 @@ std::optional<ConstraintViolation> PlanCheck::Brake(const StopPath& path, Brakin
     double s = point.s;
     const double out = OffRoad(z, s);
     if (out <= off_road_) return std::nullopt;
-    const int step = static_cast<int>(std::lround(from.time / settings_.t_s));
-    return ConstraintViolation{.constraint = {.kind = ConstraintKind::kRoad, .index = 0, .step = step},
-                               .amount = out};
+    return Violation(ConstraintKind::kRoad, 0, StepAt(from.time), out);
   };
   if (from.speed <= kStands) return std::nullopt;
   for (bool first = true; from.speed > kStands; first = false) {
     const double curvature = path.At(from.distance).curvature;
     const double across = std::abs(from.speed * from.speed * curvature - a_y_);
-    if (across > grip + kGripTolerance && !first) {
-      const int step = static_cast<int>(std::lround(from.time / settings_.t_s));
-      return ConstraintViolation{.constraint = {.kind = ConstraintKind::kFriction, .index = 0, .step = step},
-                                 .amount = across - grip};
-    }
+    if (across > grip + kGripTolerance && !first)
+      return Violation(ConstraintKind::kFriction, 0, StepAt(from.time), across - grip);
     const double wanted = -Brakes(from.speed, curvature, deceleration);
     if (from.time >= begin + kResponse - 1e-9)
       from.acceleration = std::max(wanted, from.acceleration - settings_.jerk * kStep);

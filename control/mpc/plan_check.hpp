@@ -33,14 +33,8 @@ struct PlanCheckSettings {
   double jerk = 30.0;                 // [m/s³]
 };
 
-// After how many inputs of a plan the vehicle may begin to brake, and how hard it must then [m/s²].
-struct Stop {
-  int after = 0;
-  double deceleration = 0.0;
-};
-
 struct StopVerdict {
-  std::optional<Stop> stop;                      // none if no stop is clear
+  std::optional<double> deceleration;            // of the stop [m/s²]; none if no stop is clear
   std::optional<ConstraintViolation> violation;  // then what stands in the way of the hardest
 };
 
@@ -66,8 +60,8 @@ class PlanCheck {
   // Likewise for a vehicle that brakes at once along `path`; it accelerates by `acceleration` [m/s²] so far. It need not
   // stop as far before things as behind a plan, lest noise take the last stop away.
   [[nodiscard]] StopVerdict FindStop(const StopPath& path, double acceleration) const;
-  // The deceleration with which this stop begins now along `path`; without one, the hardest that the tyres can give [m/s²].
-  [[nodiscard]] double Deceleration(const StopPath& path, const std::optional<Stop>& stop) const;
+  // What the tyres can give now, along `path`, of the deceleration of a stop; without one, of the hardest [m/s²].
+  [[nodiscard]] double Deceleration(const StopPath& path, const std::optional<double>& stop) const;
 
   void Reconfigure(double stop_deceleration);
   [[nodiscard]] const Footprint& footprint() const { return settings_.footprint; }
@@ -82,7 +76,10 @@ class PlanCheck {
   [[nodiscard]] double OffRoad(const State& z, double& s) const;
   [[nodiscard]] double BeyondGrip(const State& z, const Input& u) const;
   [[nodiscard]] double Brakes(double speed, double curvature, double deceleration) const;
+  // The step that ends `time` [s] from now.
+  [[nodiscard]] int StepAt(double time) const;
   [[nodiscard]] std::optional<ConstraintViolation> Contact(const State& z, double s, double time) const;
+  [[nodiscard]] StopVerdict Mildest(const StopPath& path, const Braking& from, double reserve) const;
   [[nodiscard]] std::optional<ConstraintViolation> Brake(const StopPath& path, Braking from,
                                                          double deceleration, double reserve) const;
 

@@ -82,22 +82,26 @@ void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> 
 }
 
 ManoeuvreStatus TrackingProblem::manoeuvre_status() const {
-  ManoeuvreStatus status{
-      .decision = manoeuvre_->decision,
-      .reason = manoeuvre_->reason,
-      .object = manoeuvre_->object,
-      .side = manoeuvre_->passed,
-      .left_out = manoeuvre_->left_out,
-      .speed_limit = std::min(profile_->At(place_.s).speed, manoeuvre_->SpeedLimitAt(place_.s))};
+  ManoeuvreStatus status{.decision = manoeuvre_->decision,
+                         .reason = manoeuvre_->reason,
+                         .object = manoeuvre_->object,
+                         .side = manoeuvre_->passed,
+                         .left_out = manoeuvre_->left_out,
+                         .speed_limit = LimitAt(place_.s)};
   for (const StopLine& line : manoeuvre_->stops()) {
     status.stop_distance = std::min(status.stop_distance, line.s - place_.s);
   }
   return status;
 }
 
+// The highest speed that road and manoeuvre allow at arc length s [m/s].
+double TrackingProblem::LimitAt(double s) const {
+  return std::min(profile_->At(s).speed, manoeuvre_->SpeedLimitAt(s));
+}
+
 double TrackingProblem::SpeedLimit(std::size_t i) const {
   const double s = s_ref_[i];
-  const double limit = std::min(profile_->At(s).speed, manoeuvre_->SpeedLimitAt(s));
+  const double limit = LimitAt(s);
   const double slowed = place_.speed - kSlowDown * static_cast<double>(i) * settings_.t_s;
   return std::min(settings_.upsilon_max, std::max(limit, slowed) + kOverLimit);
 }

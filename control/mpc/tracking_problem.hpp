@@ -64,6 +64,7 @@ class TrackingProblem {
 
  private:
   void Place(const State& z, double s);
+  [[nodiscard]] double LimitAt(double s) const;
   void Add(std::size_t i, const BodyRow& row);
   void AddRoad(std::size_t i, const State& z_hat, const RouteProjection& place);
   void AddObstacles(std::size_t i, const State& z_hat);

@@ -22,7 +22,7 @@ constexpr double kOtherSide = 1e3;     // where an object that must be passed on
 
 // Distance at which the vehicle can just stop behind an object that brakes [m].
 double WayToStopBehind(double speed, double object_speed, double deceleration) {
-  return 0.5 * speed * speed / deceleration - 0.5 * object_speed * object_speed / StopLine::kHardest;
+  return 0.5 * speed * speed / deceleration - StopLine::HardestStop(object_speed);
 }
 
 }  // namespace

@@ -11,12 +11,7 @@ constexpr double kShortest = 40.0;  // least length of road that is planned for 
 constexpr double kSameTimes = 0.3;  // difference of arrival times that does not matter [s]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kSlowest = 1.0;      // speed that the road allows, where costs are compared, at least [m/s]
-constexpr double kShareOfGrip = 0.9;  // of the grip that a path, or braking, may use
-
-SpeedLimits WithinGrip(SpeedLimits limits, double grip) {
-  limits.emergency = std::min(limits.emergency, kShareOfGrip * grip);
-  return limits;
-}
+constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
 
 // A vehicle that stays behind keeps its distance anyway.
 double TimeToLeave(const Candidate& candidate, double leaves) {
@@ -169,7 +164,7 @@ void ManoeuvreSearch::KeepAbleToStop(Candidate& candidate) const {
         o.MovesAhead() && o.s > vehicle_.s && Covers(o, vehicle_.lateral, 0.0, RoadObject::kDrift, 0.0);
     const bool crosses = o.crosses && o.Moves() && candidate.path.exists;
     if (!ahead && !crosses) continue;
-    const double brakes = ahead ? o.speed * o.speed / (2.0 * StopLine::kHardest) : 0.0;
+    const double brakes = ahead ? StopLine::HardestStop(o.speed) : 0.0;
     for (std::size_t j = 0; j < speeds.count; ++j) {
       const double s = stations_.At(j), t = speeds.t[j];
       const double room = o.SAt(t) + brakes - o.half_length - settings_.footprint.front - s;

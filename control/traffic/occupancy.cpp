@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/traffic/stop_line.hpp"
+
 namespace control {
 namespace {
 
 constexpr double kReaction = 1.0;       // [s]
 constexpr double kBrakesAtLeast = 3.0;  // [m/s²]
-constexpr double kBrakesAtMost = 8.0;   // [m/s²]
 
 // Distance that is covered in the time t by braking from `speed` to a stop.
 double BrakingWay(double speed, double deceleration, double t) {
@@ -24,7 +25,7 @@ double TimeToNearest(const Obstacle& obstacle, const RoadObject& object, double 
   const double speed = object.crosses ? velocity.norm() : std::abs(object.speed);
   if (speed <= RoadObject::kMoving) return 0.0;
   const bool gives_way = !object.crosses && (object.ComesTowards() || object.s < s_0);
-  const double shortest = BrakingWay(speed, kBrakesAtMost, time);
+  const double shortest = BrakingWay(speed, StopLine::kHardest, time);
   const double longest =
       gives_way ? speed * std::min(time, kReaction) + BrakingWay(speed, kBrakesAtLeast, time - kReaction)
                 : speed * time;

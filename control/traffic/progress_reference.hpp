@@ -10,11 +10,11 @@
 // where the terms in κ_r d' and in the road's change of curvature are neglected.
 #pragma once
 
-#include <algorithm>
 #include <span>
 
 #include "control/road/road_profile.hpp"
 #include "control/traffic/manoeuvre.hpp"
+#include "control/traffic/speed_plan.hpp"
 #include "control/vehicle/disturbance.hpp"
 #include "control/vehicle/types.hpp"
 #include "control/vehicle/vehicle_parameters.hpp"
@@ -25,10 +25,7 @@ class ProgressReference {
  public:
   // `grip`: acceleration that the tyres can give [m/s²].
   ProgressReference(const VehicleParameters& vehicle, const RoadProfile& profile, double t_s, double grip)
-      : vehicle_(vehicle), profile_(&profile), limits_(profile.limits()), t_s_(t_s) {
-    constexpr double kShareOfGrip = 0.9;  // that the hardest braking uses
-    limits_.emergency = std::min(limits_.emergency, kShareOfGrip * grip);
-  }
+      : vehicle_(vehicle), profile_(&profile), limits_(WithinGrip(profile.limits(), grip)), t_s_(t_s) {}
 
   // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
   // at the arc length s_0 and at about the speed `upsilon` [m/s].

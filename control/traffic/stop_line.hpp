@@ -10,10 +10,12 @@ struct StopLine {
 
   // Deceleration at which an object that moves ahead is taken to be able to brake [m/s²].
   static constexpr double kHardest = 8.0;
-  // Distance in which a vehicle at arc length s must be able to stop in case the line's object brakes at its hardest [m].
-  [[nodiscard]] double RoomToStop(double at) const {
-    return s + spare + speed * speed / (2.0 * kHardest) - at;
+  // Distance in which an object at this speed stops then [m].
+  static constexpr double HardestStop(double object_speed) {
+    return object_speed * object_speed / (2.0 * kHardest);
   }
+  // Distance in which a vehicle at arc length s must be able to stop in case the line's object brakes at its hardest [m].
+  [[nodiscard]] double RoomToStop(double at) const { return s + spare + HardestStop(speed) - at; }
 };
 
 }  // namespace control

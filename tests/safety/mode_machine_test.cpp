@@ -211,7 +211,7 @@ TEST(ModeMachine, SafeStopIsLeftAfterThreeCyclesInARowWithoutACause) {
   }
 }
 
-TEST(ModeMachine, OneStepOfRouteIsEnoughToDriveOnFromAStopAndNoneEndsTheDrive) {
+TEST(ModeMachine, OneStepOfRouteIsEnoughToDriveOnFromAStop) {
   ModeInputs inputs = Well();
   inputs.plan_new = true;
   inputs.standstill = true;
