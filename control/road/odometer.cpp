@@ -15,11 +15,6 @@ int NearestAhead(const TimeReference& reference, const Eigen::Vector2d& p, int f
   return NearestSample(distance, from, from, from + kMostSamples);
 }
 
-double TravelDirection(const State& z) {
-  const bool slips = z.segment<2>(kUpsilon).norm() > kMinSteeringSpeed;
-  return z[kPsi] + (slips ? std::atan2(z[kNu], z[kUpsilon]) : 0.0);
-}
-
 void Odometer::Start(const State& z, int k) {
   motion_.nearest = k;
   Advance(&z, Input::Zero());
@@ -32,7 +27,7 @@ void Odometer::Advance(const State* measured, const Input& applied) {
     m.p = Position(z);
     m.psi = z[kPsi];
     m.speed = z.segment<2>(kUpsilon).norm();
-    m.travel_direction = TravelDirection(z);
+    m.travel_direction = m.psi + (m.speed > kMinSteeringSpeed ? std::atan2(z[kNu], z[kUpsilon]) : 0.0);
   } else {
     const double curvature = applied[kDelta] / SteeringPerCurvature(vehicle_, m.speed);
     const double next = std::max(m.speed + t_s_ * applied[kAcceleration], 0.0);

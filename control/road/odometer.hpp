@@ -19,9 +19,6 @@ struct RouteMotion {
   int nearest = 0;                              // sample of the reference beside the vehicle
 };
 
-// Direction of the velocity of a vehicle in this state: ψ plus the sideslip angle, unless it is too slow for one [rad].
-[[nodiscard]] double TravelDirection(const State& z);
-
 class Odometer {
  public:
   // `reference` must outlive this object. `t_s` is the cycle time [s].

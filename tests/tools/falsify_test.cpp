@@ -8,11 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "config/text_file.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tools/io/write_file.hpp"
 
 namespace {
 
+using test_support::ErrorOf;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -23,16 +25,6 @@ using tools::FalsifySetup;
 using tools::Finding;
 using tools::PossibleWay;
 using tools::SweepOutcome;
-
-template <typename Call>
-std::string ErrorOf(const Call& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 FalsifySetup Small() {
   FalsifySetup setup{.seed = 3, .budget = 12};

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/text_file.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tools/drive/sweep_config.hpp"
 #include "tools/io/write_file.hpp"
@@ -19,6 +20,7 @@
 
 namespace {
 
+using test_support::ErrorOf;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -29,16 +31,6 @@ using tools::SweepOutcome;
 using tools::SweepPart;
 using tools::SweepResult;
 using tools::SweepSetup;
-
-template <typename Call>
-std::string ErrorOf(const Call& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 SweepSetup Small() {
   return {.seed = 11, .count = 4, .ranges = {}, .controllers = {"lpv", "lpv-standard"}};

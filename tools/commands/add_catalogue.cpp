@@ -13,9 +13,7 @@ Command AddCatalogue(CLI::App& program) {
   command->add_option("--scenarios", options->folder,
                       "folder with the catalogue, instead of the installed one");
   command->add_option("--filter", options->filter, "drive only the scenarios whose name contains this text");
-  command->add_option("--jobs", options->jobs, "number of processes that drive")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  AddJobs(*command, options->jobs);
   command->add_option("--json", options->json, "write all figures as JSON to this file");
   command
       ->add_option("--report", options->report,

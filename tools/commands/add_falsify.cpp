@@ -45,9 +45,7 @@ std::vector<Command> AddFalsify(CLI::App& program) {
       ->add_option("--controller", options->setup.controller,
                    fmt::format("one of {}", fmt::join(SweepControllers(), ", ")))
       ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "number of processes that drive")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  AddJobs(*command, options->jobs);
   command->add_option_function<std::string>(
       "--shard", [options](const std::string& text) { options->shard = ParseShard(text); },
       "i/n: make only every n-th search, from the i-th on, and write them, for falsify merge");

@@ -41,9 +41,7 @@ std::vector<Command> AddSweep(CLI::App& program) {
       ->add_option("--controller", options->setup.controllers,
                    fmt::format("one or several of {}", fmt::join(SweepControllers(), ", ")))
       ->default_str("all");
-  command->add_option("--jobs", options->jobs, "number of processes that drive")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  AddJobs(*command, options->jobs);
   command->add_option_function<std::string>(
       "--shard", [options](const std::string& text) { options->shard = ParseShard(text); },
       "i/n: drive only the i-th of n parts and write it, for sweep merge");

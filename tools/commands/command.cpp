@@ -33,6 +33,12 @@ void AddTraffic(CLI::App& command, ScenarioRanges& ranges) {
                    "scenarios with traffic, instead of one to three obstacles on a road of constant width");
 }
 
+void AddJobs(CLI::App& command, int& jobs) {
+  command.add_option("--jobs", jobs, "number of processes that drive")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
 CLI::Range Seeds() {
   return {std::uint64_t{0}, kSeedEnd - 1};
 }

@@ -37,6 +37,8 @@ void RequireOption(const CLI::App& command, const char* option);
 void AddRanges(CLI::App& command, ScenarioRanges& ranges);
 // Adds "--traffic", likewise.
 void AddTraffic(CLI::App& command, ScenarioRanges& ranges);
+// Adds "--jobs", the number of processes; `jobs` must outlive the command.
+void AddJobs(CLI::App& command, int& jobs);
 [[nodiscard]] CLI::Range Seeds();
 // The project's scenarios, found relative to the program, both in a build folder and in an installation.
 [[nodiscard]] std::filesystem::path Scenarios(const char* part);

@@ -7,24 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/falsify/falsify_result.hpp"
+#include "tools/io/json_values.hpp"
 
 namespace tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-// The value of `all` with this name. Throws std::invalid_argument if there is none.
-template <typename Enumeration, std::size_t N>
-Enumeration Named(const std::array<Enumeration, N>& all, const std::string& name) {
-  for (const Enumeration one : all) {
-    if (name == NameOf(one)) return one;
-  }
-  throw std::invalid_argument(fmt::format("\"{}\" is not a known name", name));
-}
-
-ordered_json OrNull(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 ordered_json SetupJson(const FalsifySetup& setup) {
   return {{"seed", setup.seed},
@@ -84,10 +72,7 @@ FalsifySearch SearchOf(const ordered_json& json) {
                        .violated = json.at("violated"),
                        .least = {},
                        .worst = FindingOf(json.at("worst"))};
-  for (const ordered_json& margin : json.at("least_margin_m")) {
-    search.least.emplace_back();
-    if (!margin.is_null()) search.least.back() = margin.get<double>();
-  }
+  for (const ordered_json& margin : json.at("least_margin_m")) search.least.push_back(NumberOrNone(margin));
   return search;
 }
 

@@ -3,16 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/io/json_values.hpp"
 #include "tools/paper/paper_result.hpp"
 
 namespace tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json OrNull(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
 
 ordered_json FeasibilityData(const FeasibilityDrive& drive) {
   const auto& failure = drive.figures.first_failure;

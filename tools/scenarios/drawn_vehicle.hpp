@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/scenario.hpp"
+#include "tools/scenarios/scenario_ranges.hpp"
 
 namespace tools {
 
@@ -19,6 +20,19 @@ struct DrawnVehicle {
   double acceleration_lag = 0.0;  // [s]
   double noise = 0.0;             // of all sensors: 1: 5 cm, 5 cm/s, 4 mrad and 10 mrad/s
 };
+
+// Draws a vehicle from a source of numbers: Random or PointReader.
+template <typename Source>
+[[nodiscard]] DrawnVehicle DrawVehicle(Source& source, const Interval& mu) {
+  DrawnVehicle vehicle;
+  vehicle.mu = source.Uniform(mu.low, mu.high);
+  vehicle.mass_factor = source.Uniform(0.8, 1.2);
+  vehicle.delay_cycles = source.Integer(0, 1);
+  vehicle.steering_lag = source.Uniform(0.0, 0.06);
+  vehicle.acceleration_lag = source.Uniform(0.0, 0.15);
+  vehicle.noise = source.Uniform(0.0, 1.0);
+  return vehicle;
+}
 
 // Sets footprint, plant, actuators and sensors.
 void Equip(const DrawnVehicle& vehicle, sim::Scenario& scenario);

@@ -53,17 +53,6 @@ std::vector<control::RoutePiece> DrawRoad(Random& random, double speed, double d
   return pieces;
 }
 
-DrawnVehicle DrawVehicle(Random& random, const Interval& mu) {
-  DrawnVehicle vehicle;
-  vehicle.mu = random.Uniform(mu.low, mu.high);
-  vehicle.mass_factor = random.Uniform(0.8, 1.2);
-  vehicle.delay_cycles = random.Integer(0, 1);
-  vehicle.steering_lag = random.Uniform(0.0, 0.06);
-  vehicle.acceleration_lag = random.Uniform(0.0, 0.15);
-  vehicle.noise = random.Uniform(0.0, 1.0);
-  return vehicle;
-}
-
 // An obstacle's velocity along the road and to its left [m/s]. Zero for two of three.
 Eigen::Vector2d DrawVelocity(Random& random, double speed) {
   if (!random.Chance(1.0 / 3.0)) return {0.0, 0.0};

@@ -17,17 +17,6 @@ namespace {
 
 constexpr double kDegree = 0.0174533;  // [rad]
 
-DrawnVehicle DrawVehicle(PointReader& reader, const Interval& mu) {
-  DrawnVehicle vehicle;
-  vehicle.mu = reader.Uniform(mu.low, mu.high);
-  vehicle.mass_factor = reader.Uniform(0.8, 1.2);
-  vehicle.delay_cycles = reader.Integer(0, 1);
-  vehicle.steering_lag = reader.Uniform(0.0, 0.06);
-  vehicle.acceleration_lag = reader.Uniform(0.0, 0.15);
-  vehicle.noise = reader.Uniform(0.0, 1.0);
-  return vehicle;
-}
-
 // Places the vehicle on the scenario's road.
 void Place(PointReader& reader, sim::Scenario& scenario) {
   const double speed = reader.Uniform(0.9, 1.0) * scenario.route.At(0.0).speed;

@@ -7,30 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/io/json_values.hpp"
 #include "tools/scenarios/scenario_seed.hpp"
 
 namespace tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json OrNull(const std::optional<double>& value) {
-  return value ? ordered_json(*value) : ordered_json(nullptr);
-}
-
-std::optional<double> NumberOrNone(const ordered_json& value) {
-  if (value.is_null()) return std::nullopt;
-  return value.get<double>();
-}
-
-// The value of `all` with this name. Throws std::invalid_argument if there is none.
-template <typename Enumeration, std::size_t N>
-Enumeration Named(const std::array<Enumeration, N>& all, const std::string& name) {
-  for (const Enumeration one : all) {
-    if (name == NameOf(one)) return one;
-  }
-  throw std::invalid_argument(fmt::format("\"{}\" is not a known name", name));
-}
 
 ordered_json DriveJson(const SweepDrive& drive) {
   return {{"outcome", NameOf(drive.outcome)},
