@@ -17,6 +17,7 @@ class ActivePlan {
   // `plan` was made at `step`, to which its first input applies. Does not allocate.
   void Set(const control::Plan& plan, std::int64_t step) {
     u_.assign(plan.u.begin(), plan.u.end());
+    beyond_ = plan.beyond;
     made_ = step;
   }
   void Clear() { u_.clear(); }
@@ -41,9 +42,12 @@ class ActivePlan {
     if (!Covers(step)) return {};
     return std::span(u_).subspan(static_cast<std::size_t>(step - made_));
   }
+  // The path that leads on beyond the last input.
+  [[nodiscard]] const control::LateralPath& beyond() const { return beyond_; }
 
  private:
   std::vector<control::Input> u_;
+  control::LateralPath beyond_;
   std::int64_t made_ = 0;
 };
 

@@ -42,10 +42,9 @@ bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
   return Acceptable(plan, horizon) ? bus::FaultCode::kNone : bus::FaultCode::kPlanRejected;
 }
 
-CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input> plan,
-                       const Present& present) {
-  const auto violation = check.Validate(plan);
-  const control::StopVerdict behind = check.FindStop();
+CheckVerdict CheckPlan(control::PlanCheck& check, const control::Plan& plan, const Present& present) {
+  const auto violation = check.Validate(plan.u);
+  const control::StopVerdict behind = check.FindStop(plan.beyond);
   CheckVerdict verdict{.violation = violation ? violation : behind.violation, .ruled_out = false};
   if (!verdict.violation) return verdict;
   if (violation) {
@@ -53,19 +52,19 @@ CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input
     verdict.ruled_out = !of_last || of_last->constraint.step > violation->constraint.step;
   }
   if (!behind.deceleration) {
-    verdict.ruled_out = verdict.ruled_out || StopsLater(check, present.plan) || StopsNow(check, present);
+    verdict.ruled_out = verdict.ruled_out || StopsLater(check, present) || StopsNow(check, present);
   }
   return verdict;
 }
 
-bool StopsLater(control::PlanCheck& check, std::span<const control::Input> plan) {
-  if (plan.empty()) return false;
-  static_cast<void>(check.Validate(plan));
-  return check.FindStop().deceleration.has_value();
+bool StopsLater(control::PlanCheck& check, const Present& present) {
+  if (present.plan.empty()) return false;
+  static_cast<void>(check.Validate(present.plan));
+  return check.FindStop(present.beyond).deceleration.has_value();
 }
 
 bool StopIsDue(control::PlanCheck& check, const Present& present) {
-  return !StopsLater(check, present.plan) && StopsNow(check, present);
+  return !StopsLater(check, present) && StopsNow(check, present);
 }
 
 }  // namespace loop

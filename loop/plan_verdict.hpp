@@ -25,6 +25,7 @@ struct SolverOutcome {
 // What the vehicle is doing, from now on.
 struct Present {
   std::span<const control::Input> plan;          // rest of the last plan; empty if there is none
+  control::LateralPath beyond;                   // that plan leads on along it
   const control::StopPath* stop_path = nullptr;  // along which it can brake; null while the driver drives
   double acceleration = 0.0;                     // [m/s²]
 };
@@ -36,11 +37,11 @@ struct CheckVerdict {
   std::optional<control::ConstraintViolation> violation;
   bool ruled_out = false;
 };
-[[nodiscard]] CheckVerdict CheckPlan(control::PlanCheck& check, std::span<const control::Input> plan,
+[[nodiscard]] CheckVerdict CheckPlan(control::PlanCheck& check, const control::Plan& plan,
                                      const Present& present);
 
-// True if there is a clear stop behind the rest of a plan; empty: there is none.
-[[nodiscard]] bool StopsLater(control::PlanCheck& check, std::span<const control::Input> plan);
+// True if there is a clear stop behind the rest of the last plan.
+[[nodiscard]] bool StopsLater(control::PlanCheck& check, const Present& present);
 
 // True if the vehicle must stop now: a stop is clear that begins at once, but none that begins later.
 [[nodiscard]] bool StopIsDue(control::PlanCheck& check, const Present& present);

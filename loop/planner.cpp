@@ -73,6 +73,7 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
   if (check_ != nullptr && request != PlanRequest::kNone)
     check_->Begin(prediction.z, place.s, prediction.obstacles, disturbance(), mu_limit());
   const Present present{.plan = active_.From(known.step),
+                        .beyond = active_.beyond(),
                         .stop_path = commanding ? &stop_path_ : nullptr,
                         .acceleration = applied[control::kAcceleration]};
   if (outcome.solution != nullptr) Accept(known, place, present, outcome);
@@ -118,14 +119,14 @@ void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, co
   bus::FaultCode refusal =
       outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
   if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
-    const CheckVerdict verdict = CheckPlan(*check_, plan.u, present);
+    const CheckVerdict verdict = CheckPlan(*check_, plan, present);
     outcome.rejection = verdict.violation;
     if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
   }
   outcome.accepted = refusal == bus::FaultCode::kNone;
   if (outcome.accepted) {
     active_.Set(plan, known.step);
-    stop_path_.Follow(plan.z, place.s);
+    stop_path_.Follow(plan.z, place.s, plan.beyond);
   } else {
     ++refused_;
     last_refusal_ = refusal;
@@ -139,7 +140,7 @@ control::Input Planner::StopInput(const Snapshot& known, const control::RoutePla
   const double last = applied[control::kDelta];
   control::Input stop(last, -settings_.stop_deceleration);
   if (motion.speed > control::kMinSteeringSpeed)
-    stop[control::kDelta] = std::clamp(stop_path_.Steering(motion), last - change, last + change);
+    stop[control::kDelta] = std::clamp(stop_path_.Steering(motion, place.s), last - change, last + change);
   if (check_ == nullptr) return stop;
   if (!known.state_fresh) {
     control::State reckoned;
@@ -147,7 +148,8 @@ control::Input Planner::StopInput(const Snapshot& known, const control::RoutePla
     check_->Begin(reckoned, place.s, obstacles_, disturbance(), mu_limit());
   }
   const auto now = check_->FindStop(stop_path_, applied[control::kAcceleration]).deceleration;
-  if (!now && StopsLater(*check_, active_.From(known.step))) return active_.At(known.step);
+  if (!now && StopsLater(*check_, {.plan = active_.From(known.step), .beyond = active_.beyond()}))
+    return active_.At(known.step);
   stop[control::kAcceleration] = -check_->Deceleration(stop_path_, now);
   return stop;
 }

@@ -10,6 +10,7 @@
 #include "control/mpc/constraint.hpp"
 #include "control/mpc/vehicle_qp.hpp"
 #include "control/qp/status.hpp"
+#include "control/road/lateral_path.hpp"
 #include "control/road/route_place.hpp"
 #include "control/traffic/manoeuvre_status.hpp"
 #include "control/vehicle/disturbance.hpp"
@@ -48,6 +49,7 @@ struct Plan {
   int active_trust_rows = 0;       // number of trust-region constraints at their bound
   double largest_slack = 0.0;      // in trust-region radii
   ConstraintViolation relaxation;  // largest slack of any other soft constraint; amount 0: none
+  LateralPath beyond;              // the path that leads on beyond step N; it need not exist
   // What was decided about the things on the road; none if the controller does not decide.
   std::optional<ManoeuvreStatus> manoeuvre = std::nullopt;
 };

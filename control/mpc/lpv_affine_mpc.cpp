@@ -52,6 +52,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   model_ = DiscreteModel(BlendedModel(vehicle_, disturbance_), settings_.t_s);
   tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance);
   plan_.manoeuvre = tracking_.manoeuvre_status();
+  plan_.beyond = tracking_.manoeuvre().path;
   CompareScheduling();
   if (tracking_.waiting()) {
     tracking_.Hold(input.u_previous, plan_.z, plan_.u);

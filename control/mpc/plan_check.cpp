@@ -109,14 +109,15 @@ std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u)
   return std::nullopt;
 }
 
-StopVerdict PlanCheck::FindStop() {
+StopVerdict PlanCheck::FindStop(const LateralPath& beyond) {
   const std::size_t steps = accelerations_.size();
-  path_.Follow(predicted_, s_);
+  path_.Follow(predicted_, s_, beyond);
   StopVerdict verdict;
   std::size_t checked = 0;  // steps in which the others may do what they can
+  double s = s_;
   for (const std::size_t after : {std::size_t{1}, steps / 2, steps}) {
     if (after > steps || after <= checked) continue;
-    for (double s = s_; checked < after; ++checked) {
+    for (; checked < after; ++checked) {
       const State& z = predicted_[checked + 1];
       s = profile_->Project(Position(z), s).s;
       if (const auto contact = Contact(z, s, static_cast<double>(checked + 1) * settings_.t_s)) {
@@ -125,7 +126,7 @@ StopVerdict PlanCheck::FindStop() {
       }
     }
     const State& z = predicted_[after];
-    const Braking from{.distance = path_.DistanceOf(Position(z)),
+    const Braking from{.distance = path_.DistanceOf(Position(z), s),
                        .speed = z[kUpsilon],
                        .acceleration = accelerations_[after - 1],
                        .time = static_cast<double>(after) * settings_.t_s};
@@ -138,7 +139,7 @@ StopVerdict PlanCheck::FindStop() {
 
 StopVerdict PlanCheck::FindStop(const StopPath& path, double acceleration) const {
   const Braking from{
-      .distance = path.DistanceOf(Position(z_)), .speed = z_[kUpsilon], .acceleration = acceleration};
+      .distance = path.DistanceOf(Position(z_), s_), .speed = z_[kUpsilon], .acceleration = acceleration};
   return Mildest(path, from, 0.0);
 }
 
@@ -175,7 +176,7 @@ std::optional<ConstraintViolation> PlanCheck::Contact(const State& z, double s, 
 }
 
 double PlanCheck::Deceleration(const StopPath& path, const std::optional<double>& stop) const {
-  return Brakes(z_[kUpsilon], path.At(path.DistanceOf(Position(z_))).curvature,
+  return Brakes(z_[kUpsilon], path.At(path.DistanceOf(Position(z_), s_)).curvature,
                 stop.value_or(settings_.hardest_deceleration));
 }
 

@@ -55,8 +55,9 @@ class PlanCheck {
   // only where the excess is more than 0.02 m or 0.3 m/s² above the initial one, which is not the plan's fault. Does not allocate.
   [[nodiscard]] std::optional<ConstraintViolation> Validate(std::span<const Input> u);
 
-  // Finds the earliest and mildest stop behind the inputs that were validated last. Does not allocate.
-  [[nodiscard]] StopVerdict FindStop();
+  // Finds the earliest and mildest stop behind the inputs that were validated last, whose plan leads on along `beyond`. Does
+  // not allocate.
+  [[nodiscard]] StopVerdict FindStop(const LateralPath& beyond = {});
   // Likewise for a vehicle that brakes at once along `path`; it accelerates by `acceleration` [m/s²] so far. It need not
   // stop as far before things as behind a plan, lest noise take the last stop away.
   [[nodiscard]] StopVerdict FindStop(const StopPath& path, double acceleration) const;

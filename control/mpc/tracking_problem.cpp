@@ -213,7 +213,10 @@ std::optional<HalfSpace> TrackingProblem::Outside(std::size_t k, std::size_t i, 
   const Side passed = manoeuvre_->side[k];
   if (passed == Side::kNone && k != first_stop_) return std::nullopt;
   const RoadObject& object = manoeuvre_->objects[k];
-  const double time = static_cast<double>(i) * settings_.t_s, margin = manoeuvre_->margin[k];
+  const double margin = manoeuvre_->margin[k];
+  double time = static_cast<double>(i) * settings_.t_s;
+  const bool goes_away = passed == Side::kLeft ? object.drift < 0.0 : object.drift > 0.0;
+  if (goes_away) time = object.Since(time);
   const Obstacle obstacle = Predict(obstacles_[object.index], object, *profile_, time);
   const double psi_road = profile_->At(object.SAt(time)).psi;
   if (k == first_stop_) return HalfSpaceBefore(obstacle, psi_road, margin);

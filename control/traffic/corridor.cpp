@@ -35,7 +35,7 @@ std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::spa
   std::size_t count = 0;
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const RoadObject& object = objects[k];
-    const double ahead_0 = object.SAt(t_0) - s_0, ahead_1 = object.SAt(t_1) - s_1;
+    const double ahead_0 = object.SAt(object.Since(t_0)) - s_0, ahead_1 = object.SAt(t_1) - s_1;
     const bool near = t_0 > leaves && object.MovesAhead() && ahead_1 > 0.0 &&
                       ahead_1 - object.half_length - settings_.footprint.front <
                           WayToStopBehind(speeds.v[j], object.speed, settings_.deceleration);
@@ -69,7 +69,7 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
   std::size_t count = 0;
   for (const std::size_t k : beside) {
     const RoadObject& object = objects[k];
-    const double from = object.LateralAt(t_0), to = object.LateralAt(t_1);
+    const double from = object.LateralAt(object.Since(t_0)), to = object.LateralAt(t_1);
     Margin margin = MarginTo(object.object_class, speeds.v[j], settings_.obstacle_margin);
     if (t_0 < present_gap_time) {
       const double apart = std::abs(vehicle.lateral - object.lateral) - object.half_width - half_width;

@@ -13,11 +13,11 @@
 #include <span>
 
 #include "control/road/road_profile.hpp"
+#include "control/road/stations.hpp"
 #include "control/traffic/gaps.hpp"
 #include "control/traffic/manoeuvre_status.hpp"
 #include "control/traffic/road_objects.hpp"
 #include "control/traffic/speed_plan.hpp"
-#include "control/traffic/stations.hpp"
 #include "control/vehicle/footprint.hpp"
 
 namespace control {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "control/road/lateral_path.hpp"
 #include "control/traffic/corridor.hpp"
-#include "control/traffic/lateral_path.hpp"
 #include "control/traffic/manoeuvre_status.hpp"
 #include "control/traffic/road_object.hpp"
 #include "control/traffic/stop_line.hpp"

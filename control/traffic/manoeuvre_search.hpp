@@ -8,9 +8,9 @@
 #include <optional>
 #include <span>
 
+#include "control/road/lateral_path.hpp"
 #include "control/road/road_profile.hpp"
 #include "control/traffic/corridor.hpp"
-#include "control/traffic/lateral_path.hpp"
 #include "control/traffic/manoeuvre.hpp"
 #include "control/traffic/path_smoother.hpp"
 #include "control/traffic/road_objects.hpp"

@@ -23,7 +23,8 @@ double TimeToNearest(const Obstacle& obstacle, const RoadObject& object, double 
                      const Eigen::Vector2d& position, double s, double s_0) {
   const Eigen::Vector2d velocity(obstacle.velocity_X, obstacle.velocity_Y);
   const double speed = object.crosses ? velocity.norm() : std::abs(object.speed);
-  if (speed <= RoadObject::kMoving) return 0.0;
+  constexpr double kStands = 0.01;  // [m/s]
+  if (speed <= kStands) return 0.0;
   const bool gives_way = !object.crosses && (object.ComesTowards() || object.s < s_0);
   const double shortest = BrakingWay(speed, StopLine::kHardest, time);
   const double longest =

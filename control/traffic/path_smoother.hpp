@@ -8,8 +8,8 @@
 #pragma once
 
 #include "control/qp/solver.hpp"
+#include "control/road/lateral_path.hpp"
 #include "control/traffic/corridor.hpp"
-#include "control/traffic/lateral_path.hpp"
 #include "control/traffic/speed_plan.hpp"
 
 namespace control {

@@ -32,6 +32,8 @@ struct RoadObject {
   [[nodiscard]] double LateralAt(double t) const {
     return lateral + drift * (crosses ? t : std::min(t, kDrift));
   }
+  // The time from which on the object can be where it is `time` [s] from now: one that hardly moves may stop at once.
+  [[nodiscard]] double Since(double time) const { return Moves() ? time : 0.0; }
   [[nodiscard]] bool Moves() const { return std::hypot(speed, drift) > kMoving; }
   [[nodiscard]] bool MovesAhead() const { return !crosses && speed > kMoving; }
   [[nodiscard]] bool ComesTowards() const { return !crosses && speed < -kMoving; }

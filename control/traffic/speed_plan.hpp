@@ -6,7 +6,7 @@
 #include <span>
 
 #include "control/road/road_profile.hpp"
-#include "control/traffic/stations.hpp"
+#include "control/road/stations.hpp"
 #include "control/traffic/stop_line.hpp"
 
 namespace control {

@@ -1,4 +1,4 @@
-#include "control/traffic/lateral_path.hpp"
+#include "control/road/lateral_path.hpp"
 
 #include "gtest/gtest.h"
 #include "tests/control/random.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "control/traffic/stations.hpp"
+#include "control/road/stations.hpp"
 
 namespace control {
 
