@@ -12,6 +12,7 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr double kOffCentre = 0.02;    // cost of a lateral offset, per second and m² [1/m²]
 constexpr double kMovement = 0.04;     // cost of a lateral velocity, per second and (m/s)² [s²/m²]
 constexpr double kLateralSpeed = 2.0;  // lateral velocity above which the vehicle has to slow down [m/s]
+constexpr double kComfortable = 1.0;   // lateral acceleration with which a lane is left [m/s²]
 constexpr double kSteepest = 0.45;     // largest slope of a way
 constexpr double kChange = 0.7;        // cost of passing an object on another side than before [s]
 constexpr double kUnfinished =
@@ -25,18 +26,36 @@ double WayToStopBehind(double speed, double object_speed, double deceleration) {
   return 0.5 * speed * speed / deceleration - StopLine::HardestStop(object_speed);
 }
 
+bool IsKept(std::span<const Side> kept, std::size_t k) {
+  return k < kept.size() && kept[k] != Side::kNone;
+}
+
+struct Times {
+  double from, to;
+};
+
+// The times between which an object may be where the vehicle is between stations j − 1 and j. `kept`: the previous way counted
+// with it.
+Times TimesBeside(const RoadObject& object, const Stations& stations, const SpeedPlan& speeds, std::size_t j,
+                  const WayTerms& terms, bool kept) {
+  const bool ahead = object.MovesAhead() && object.s > stations.s_0;
+  const double spare = kept || ahead || !object.Moves() ? 0.0 : terms.spare;
+  return {.from = object.Since(std::max(speeds.t[j - 1] - spare, 0.0)),
+          .to = std::max(speeds.t[j], terms.waits) + spare};
+}
+
 }  // namespace
 
 std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::span<const RoadObject> objects,
-                                              const SpeedPlan& speeds, std::size_t j, double until,
-                                              double leaves) {
+                                              const SpeedPlan& speeds, std::size_t j, const WayTerms& terms,
+                                              std::span<const Side> kept) {
   const double s_0 = stations.At(j - 1), s_1 = stations.At(j);
-  const double t_0 = speeds.t[j - 1], t_1 = std::max(speeds.t[j], until);
   std::size_t count = 0;
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const RoadObject& object = objects[k];
-    const double ahead_0 = object.SAt(object.Since(t_0)) - s_0, ahead_1 = object.SAt(t_1) - s_1;
-    const bool near = t_0 > leaves && object.MovesAhead() && ahead_1 > 0.0 &&
+    const auto [t_0, t_1] = TimesBeside(object, stations, speeds, j, terms, IsKept(kept, k));
+    const double ahead_0 = object.SAt(t_0) - s_0, ahead_1 = object.SAt(t_1) - s_1;
+    const bool near = t_0 > terms.leaves && object.MovesAhead() && ahead_1 > 0.0 &&
                       ahead_1 - object.half_length - settings_.footprint.front <
                           WayToStopBehind(speeds.v[j], object.speed, settings_.deceleration);
     if (near || object.IsBeside(settings_.footprint, ahead_0, ahead_1)) beside_[count++] = k;
@@ -57,10 +76,9 @@ RoadBounds Corridor::NarrowestAt(double s, double spacing) const {
 }
 
 void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
-                        std::span<const RoadObject> objects, const SpeedPlan& speeds, std::size_t j,
-                        double until, bool squeeze, double leaves) {
-  const auto beside = Beside(stations, objects, speeds, j, until, leaves);
-  const double t_0 = speeds.t[j - 1], t_1 = std::max(speeds.t[j], until);
+                        std::span<const RoadObject> objects, std::span<const Side> kept,
+                        const SpeedPlan& speeds, std::size_t j, const WayTerms& terms) {
+  const auto beside = Beside(stations, objects, speeds, j, terms, kept);
   // In a bend, the ends of the vehicle reach further out than its middle.
   const double end = std::max(settings_.footprint.front, settings_.footprint.rear);
   const double half_width =
@@ -69,25 +87,43 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
   std::size_t count = 0;
   for (const std::size_t k : beside) {
     const RoadObject& object = objects[k];
-    const double from = object.LateralAt(object.Since(t_0)), to = object.LateralAt(t_1);
+    const auto [t_0, t_1] = TimesBeside(object, stations, speeds, j, terms, IsKept(kept, k));
+    const double from = object.LateralAt(t_0), to = object.LateralAt(t_1);
     Margin margin = MarginTo(object.object_class, speeds.v[j], settings_.obstacle_margin);
-    if (t_0 < present_gap_time) {
+    if (speeds.t[j - 1] < present_gap_time) {
       const double apart = std::abs(vehicle.lateral - object.lateral) - object.half_width - half_width;
       margin.wanted = std::clamp(apart, 0.0, margin.wanted);
       margin.least = std::min(margin.least, margin.wanted);
     }
-    if (squeeze) margin.wanted = margin.least = std::min(0.05, margin.least);
-    covered_[count++] = {
+    if (terms.squeeze) margin.wanted = margin.least = std::min(0.05, margin.least);
+    Covered covered{
         .right = object.side == PassingSide::kLeft ? -kOtherSide : std::min(from, to) - object.half_width,
         .left = object.side == PassingSide::kRight ? kOtherSide : std::max(from, to) + object.half_width,
         .margin = margin};
+    const bool is_beside = object.IsBeside(settings_.footprint, object.SAt(t_0) - stations.At(j - 1),
+                                           object.SAt(t_1) - stations.At(j));
+    // Its lane is left at once, but no faster than is comfortable.
+    if (!is_beside && IsKept(kept, k)) {
+      const double apart = half_width + margin.wanted, t = speeds.t[j];
+      const double straight = vehicle.lateral + vehicle.slope * (stations.At(j) - stations.s_0);
+      const double moved = 0.5 * kComfortable * t * t;
+      if (kept[k] == Side::kLeft) {
+        covered = {
+            .right = -kOtherSide, .left = std::min(covered.left, straight + moved - apart), .margin = margin};
+      } else {
+        covered = {
+            .right = std::max(covered.right, straight - moved + apart), .left = kOtherSide, .margin = margin};
+      }
+    }
+    covered_[count++] = covered;
   }
   const RoadBounds road = NarrowestAt(stations.At(j), stations.spacing);
-  const double edge = squeeze ? 0.0 : std::min(0.05, settings_.road_margin);
+  const double edge = terms.squeeze ? 0.0 : std::min(0.05, settings_.road_margin);
   const Covered outside{
       .right = road.left,
       .left = road.right,
-      .margin = {.least = edge, .wanted = squeeze ? edge : settings_.road_margin, .speed = kSpeedAtEdge}};
+      .margin = {
+          .least = edge, .wanted = terms.squeeze ? edge : settings_.road_margin, .speed = kSpeedAtEdge}};
   gaps_[j].Find(outside, {covered_.data(), count}, half_width);
 }
 
@@ -135,7 +171,7 @@ void Corridor::Reach(std::size_t j, const Stations& stations, const RoadPosition
 
 void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
                     std::span<const RoadObject> objects, std::span<const Side> kept, const SpeedPlan& speeds,
-                    double time, bool squeeze, double leaves, Way& way) {
+                    const WayTerms& terms, Way& way) {
   RoadBounds widest = profile_->RoadAt(vehicle.s);
   for (std::size_t j = 1; j < kStations; ++j) {
     const RoadBounds road = profile_->RoadAt(stations.At(j));
@@ -150,9 +186,11 @@ void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
   std::size_t reached = 1;
   for (std::size_t j = 1; j < speeds.count; ++j) {
     const bool last = j + 1 == speeds.count;
-    FindGaps(stations, vehicle, objects, speeds, j, last && waits ? time : 0.0, squeeze, leaves);
+    WayTerms here = terms;
+    if (!last || !waits) here.waits = 0.0;
+    FindGaps(stations, vehicle, objects, kept, speeds, j, here);
     met_.fill(false);
-    for (const std::size_t k : Beside(stations, objects, speeds, j, 0.0, leaves)) {
+    for (const std::size_t k : Beside(stations, objects, speeds, j, {.leaves = terms.leaves})) {
       met_[k] = !seen[k];
       seen[k] = true;
     }
@@ -169,7 +207,7 @@ void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
   // An overtaking manoeuvre should end within the horizon.
   double best = std::numeric_limits<double>::infinity();
   int l = 0;
-  const auto at_end = Beside(stations, objects, speeds, reached - 1, 0.0);
+  const auto at_end = Beside(stations, objects, speeds, reached - 1);
   const bool unfinished = std::ranges::any_of(
       at_end, [&](std::size_t k) { return objects[k].MovesAhead() && kept[k] == Side::kNone; });
   for (int c = 0; c < kCells; ++c) {
@@ -185,7 +223,7 @@ void Corridor::Find(const Stations& stations, const RoadPosition& vehicle,
     const Cell& cell = cells_[j][static_cast<std::size_t>(l)];
     way.lateral[j] = static_cast<double>(cell.lateral);
     way.gap[j] = gaps_[j].gaps()[static_cast<std::size_t>(cell.gap)];
-    for (const std::size_t k : Beside(stations, objects, speeds, j, 0.0, leaves)) {
+    for (const std::size_t k : Beside(stations, objects, speeds, j, {.leaves = terms.leaves})) {
       way.side[k] = way.lateral[j] > objects[k].LateralAt(0.5 * (speeds.t[j - 1] + speeds.t[j]))
                         ? Side::kLeft
                         : Side::kRight;

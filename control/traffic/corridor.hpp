@@ -30,6 +30,20 @@ struct CorridorSettings {
   double deceleration = 3.5;     // with which the vehicle could stop behind an object [m/s²]
 };
 
+// What is asked of a way.
+struct WayTerms {
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
+  bool squeeze = false;  // the margins are the least ones
+  double waits = 0.0;    // until then, a vehicle that waits at the last station waits there [s]
+  // The time from which the way must be beside, and not behind, an object that moves ahead where the vehicle could not stop
+  // behind it any more; never: it keeps its distance anyway [s].
+  double leaves = kNever;
+  // Time by which objects may be earlier or later that come towards the vehicle, cross or overtake it, and that the previous
+  // way did not count with: a gap that is only just long enough would be taken and given up by turns [s].
+  double spare = 0.0;
+};
+
 // A way: at each station the gap that it goes through, and where.
 struct Way {
   std::array<Gap, kStations> gap{};
@@ -46,22 +60,19 @@ class Corridor {
       : settings_(settings), profile_(&profile) {}
 
   // The best way through the stations that `speeds` reaches; if there is none, the one that leads farthest. `kept`: the
-  // previous side of each object. `time`: until then, a vehicle that waits at the last station waits there [s]. `squeeze`: the
-  // margins are the least ones. `leaves`: the time from which the way must be beside, and not behind, an object that moves
-  // ahead where the vehicle could not stop behind it any more; infinite: it keeps its distance anyway [s].
+  // previous side of each object.
   void Find(const Stations& stations, const RoadPosition& vehicle, std::span<const RoadObject> objects,
-            std::span<const Side> kept, const SpeedPlan& speeds, double time, bool squeeze, double leaves,
-            Way& way);
+            std::span<const Side> kept, const SpeedPlan& speeds, const WayTerms& terms, Way& way);
 
-  // The objects beside the vehicle between stations j − 1 and j, j ≥ 1, as indices; valid until the next call. From the time
-  // `leaves` on, those ahead of it that are too near to stop behind count, too.
+  // The objects beside the vehicle between stations j − 1 and j, j ≥ 1, or too near to it by the terms, as indices; valid until
+  // the next call. `kept`: as for Find, if there are terms.
   [[nodiscard]] std::span<const std::size_t> Beside(const Stations& stations,
                                                     std::span<const RoadObject> objects,
-                                                    const SpeedPlan& speeds, std::size_t j, double until,
-                                                    double leaves = kNotAtAll);
+                                                    const SpeedPlan& speeds, std::size_t j,
+                                                    const WayTerms& terms = {},
+                                                    std::span<const Side> kept = {});
 
  private:
-  static constexpr double kNotAtAll = std::numeric_limits<double>::infinity();
   static constexpr int kCells = 25;  // lateral positions at each station
   struct Cell {
     float cost = 0.0F;     // of the best way to here [s]; infinite: none
@@ -72,7 +83,7 @@ class Corridor {
 
   [[nodiscard]] RoadBounds NarrowestAt(double s, double spacing) const;
   void FindGaps(const Stations& stations, const RoadPosition& vehicle, std::span<const RoadObject> objects,
-                const SpeedPlan& speeds, std::size_t j, double until, bool squeeze, double leaves);
+                std::span<const Side> kept, const SpeedPlan& speeds, std::size_t j, const WayTerms& terms);
   void Reach(std::size_t j, const Stations& stations, const RoadPosition& vehicle,
              std::span<const RoadObject> objects, std::span<const Side> kept, const SpeedPlan& speeds);
 

@@ -7,17 +7,10 @@
 namespace control {
 namespace {
 
-constexpr double kShortest = 40.0;  // least length of road that is planned for [m]
-constexpr double kSameTimes = 0.3;  // difference of arrival times that does not matter [s]
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kShortest = 40.0;    // least length of road that is planned for [m]
+constexpr double kSameTimes = 0.3;    // difference of arrival times that does not matter [s]
 constexpr double kSlowest = 1.0;      // speed that the road allows, where costs are compared, at least [m/s]
 constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
-
-// A vehicle that stays behind keeps its distance anyway.
-double TimeToLeave(const Candidate& candidate, double leaves) {
-  if (candidate.stop_count > 0) return kNever;
-  return leaves;
-}
 
 }  // namespace
 
@@ -56,11 +49,16 @@ void ManoeuvreSearch::Measure() {
   }
 }
 
-void ManoeuvreSearch::Go(std::span<const Side> kept, bool squeeze, double decided, Candidate& candidate) {
-  constexpr double kTimeToLeave = 3.0, kAtLeast = 1.0;  // [s]
-  leaves_ = std::max(kTimeToLeave - decided, kAtLeast);
+void ManoeuvreSearch::Go(std::span<const Side> kept, Caution caution, double decided, Candidate& candidate) {
+  constexpr double kTimeToLeave = 3.0, kSpare = 0.6;  // [s]
+  leaves_ = std::max(kTimeToLeave - decided, 0.0);
   candidate.stop_count = 0;
-  Evaluate(kept, squeeze, candidate);
+  Evaluate(kept,
+           {.squeeze = caution == Caution::kSqueeze,
+            .waits = settings_.horizon,
+            .leaves = leaves_,
+            .spare = caution == Caution::kUsual ? kSpare : 0.0},
+           candidate);
 }
 
 void ManoeuvreSearch::StayBehind(std::optional<std::size_t> object, std::span<const Side> kept,
@@ -68,7 +66,7 @@ void ManoeuvreSearch::StayBehind(std::optional<std::size_t> object, std::span<co
   candidate.stop_count = 0;
   while (candidate.stop_count < Manoeuvre::kMostStops) {
     AddStop(object, candidate);
-    Evaluate(kept, false, candidate);
+    Evaluate(kept, {.waits = settings_.horizon}, candidate);
     if (candidate.possible || !candidate.blocker) return;
     object = candidate.blocker;
     const auto known = std::span(candidate.stop_objects).first(candidate.stop_count);
@@ -93,7 +91,7 @@ double ManoeuvreSearch::TimeFrom(std::size_t j) const {
   return time;
 }
 
-void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate) {
+void ManoeuvreSearch::Evaluate(std::span<const Side> kept, const WayTerms& terms, Candidate& candidate) {
   const auto objects = objects_.objects();
   const std::span stops(candidate.stop_lines.data(), candidate.stop_count);
   candidate.possible = candidate.late = false;
@@ -108,12 +106,11 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, bool squeeze, Candida
   KeepAbleToStop(candidate);
   candidate.speeds = plan_speeds(candidate.speed_limit);
   for (int round = 0; round < 2; ++round) {
-    corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, settings_.horizon, squeeze,
-                   TimeToLeave(candidate, leaves_), candidate.way);
+    corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, terms, candidate.way);
     const bool blocked = candidate.way.reached < candidate.speeds.count;
     if (blocked) {
-      candidate.blocker = Blocker(candidate);
-      candidate.obstacle = Obstruction(candidate);
+      candidate.blocker = Blocker(kept, terms, candidate);
+      candidate.obstacle = Obstruction(kept, terms, candidate);
     }
     if (!smoother_.Smooth(stations_, start_, candidate.way, candidate.speeds, curvature_, candidate.path)) {
       if (!blocked) candidate.obstacle = Reason::kNoPath;
@@ -157,7 +154,8 @@ void ManoeuvreSearch::LimitSpeed(Candidate& candidate) const {
 // The vehicle must be able to stop in case another does: behind an object that moves ahead, until it has had time to leave the
 // object's lane, and before one that crosses, as long as that may come to a stop on the path.
 void ManoeuvreSearch::KeepAbleToStop(Candidate& candidate) const {
-  constexpr double kApart = 0.3;  // gap to one that crosses that leaves no doubt [m]
+  constexpr double kLeaves = 1.0;  // time in which the lane is left at last [s]
+  constexpr double kApart = 0.3;   // gap to one that crosses that leaves no doubt [m]
   const SpeedPlan& speeds = candidate.speeds;
   for (const RoadObject& o : objects_.objects()) {
     const bool ahead =
@@ -168,7 +166,7 @@ void ManoeuvreSearch::KeepAbleToStop(Candidate& candidate) const {
     for (std::size_t j = 0; j < speeds.count; ++j) {
       const double s = stations_.At(j), t = speeds.t[j];
       const double room = o.SAt(t) + brakes - o.half_length - settings_.footprint.front - s;
-      if (room < -settings_.footprint.front || (ahead && t > leaves_)) break;
+      if (room < -settings_.footprint.front || (ahead && t > std::max(leaves_, kLeaves))) break;
       const double then = t + room / std::max(speeds.v[j], 1.0);
       if (crosses && !Covers(o, candidate.path.At(o.SAt(t)).offset, t, then, kApart)) continue;
       candidate.speed_limit[j] =
@@ -196,7 +194,7 @@ std::optional<std::size_t> ManoeuvreSearch::Touched(const Candidate& candidate) 
   };
   constexpr int kParts = 4;  // of the way between two stations
   for (std::size_t j = 1; j < std::min(speeds.count, candidate.way.reached); ++j) {
-    for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), speeds, j, 0.0)) {
+    for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), speeds, j)) {
       const RoadObject& o = objects_.objects()[k];
       if (touches(o, stations_.s_0, 0.0)) continue;
       for (int part = 1; part <= kParts; ++part) {
@@ -229,12 +227,13 @@ double ManoeuvreSearch::Cost(const Candidate& candidate) const {
   return cost + (last + 1 == kStations ? speeds.t[last] : settings_.horizon + TimeFrom(last));
 }
 
-std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) {
+std::optional<std::size_t> ManoeuvreSearch::Blocker(std::span<const Side> kept, const WayTerms& terms,
+                                                    const Candidate& candidate) {
   const std::size_t j = candidate.way.reached;
   std::optional<std::size_t> blocker;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), candidate.speeds, j, 0.0,
-                                              TimeToLeave(candidate, leaves_))) {
+  for (const std::size_t k : corridor_.Beside(stations_, objects_.objects(), candidate.speeds, j,
+                                              {.leaves = terms.leaves, .spare = terms.spare}, kept)) {
     const RoadObject& object = objects_.objects()[k];
     const double near = object.s - object.half_length;
     if (near < vehicle_.s - settings_.footprint.rear) continue;  // it comes from behind
@@ -254,16 +253,22 @@ std::optional<std::size_t> ManoeuvreSearch::Blocker(const Candidate& candidate) 
 }
 
 // Of several causes that come together, the one counts that passes soonest.
-Reason ManoeuvreSearch::Obstruction(const Candidate& candidate) {
+Reason ManoeuvreSearch::Obstruction(std::span<const Side> kept, const WayTerms& terms,
+                                    const Candidate& candidate) {
   const auto objects = objects_.objects();
+  const std::size_t reached = candidate.way.reached;
   Reason reason = Reason::kRoadTooNarrow;
-  for (const std::size_t k :
-       corridor_.Beside(stations_, objects, candidate.speeds, candidate.way.reached, 0.0)) {
-    if (objects[k].ComesTowards()) return Reason::kOncomingFirst;
-    if (objects[k].crosses && objects[k].Moves()) {
-      reason = Reason::kCrossingFirst;
-    } else if (reason == Reason::kRoadTooNarrow) {
-      reason = Reason::kNoGap;
+  // Around the last station, too: what is met there may have closed the lane in which the way would lead on.
+  for (std::size_t j = std::max<std::size_t>(reached, 6) - 5;
+       j < std::min(reached + 6, candidate.speeds.count); ++j) {
+    for (const std::size_t k : corridor_.Beside(stations_, objects, candidate.speeds, j,
+                                                {.leaves = terms.leaves, .spare = terms.spare}, kept)) {
+      if (objects[k].ComesTowards()) return Reason::kOncomingFirst;
+      if (objects[k].crosses && objects[k].Moves()) {
+        reason = Reason::kCrossingFirst;
+      } else if (reason == Reason::kRoadTooNarrow) {
+        reason = Reason::kNoGap;
+      }
     }
   }
   return reason;

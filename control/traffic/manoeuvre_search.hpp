@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -35,6 +36,12 @@ struct Candidate {
   std::optional<std::size_t> blocker;  // the object that blocks the way
 };
 
+enum class Caution : std::uint8_t {
+  kUsual,    // with time to spare for objects that are new, and the usual margins
+  kNoSpare,  // with the usual margins
+  kSqueeze,  // with the least margins
+};
+
 class ManoeuvreSearch {
  public:
   // `profile` must outlive this object.
@@ -44,10 +51,10 @@ class ManoeuvreSearch {
   // the functions allocates.
   void Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle, const LateralPoint& start);
 
-  // Searches past the objects. `kept`: the previous side of each object. `squeeze`: with the least margins.
+  // Searches past the objects. `kept`: the previous side of each object.
   // `decided`: for how long this has been decided [s]; the longer, the sooner must the vehicle leave the lane of an object
   // that it overtakes, lest it put that off for ever.
-  void Go(std::span<const Side> kept, bool squeeze, double decided, Candidate& candidate);
+  void Go(std::span<const Side> kept, Caution caution, double decided, Candidate& candidate);
   // Searches behind `object`, or without one behind the station at which `candidate.way` ends, and behind what else turns
   // out to block the way.
   void StayBehind(std::optional<std::size_t> object, std::span<const Side> kept, Candidate& candidate);
@@ -62,11 +69,13 @@ class ManoeuvreSearch {
  private:
   void Measure();
   [[nodiscard]] double TimeFrom(std::size_t j) const;
-  void Evaluate(std::span<const Side> kept, bool squeeze, Candidate& candidate);
+  void Evaluate(std::span<const Side> kept, const WayTerms& terms, Candidate& candidate);
   void AddStop(std::optional<std::size_t> object, Candidate& candidate) const;
-  [[nodiscard]] std::optional<std::size_t> Blocker(const Candidate& candidate);
+  [[nodiscard]] std::optional<std::size_t> Blocker(std::span<const Side> kept, const WayTerms& terms,
+                                                   const Candidate& candidate);
   // Why the way leads no farther.
-  [[nodiscard]] Reason Obstruction(const Candidate& candidate);
+  [[nodiscard]] Reason Obstruction(std::span<const Side> kept, const WayTerms& terms,
+                                   const Candidate& candidate);
   // The object that the path touches at the times of the speed plan, if there is one.
   [[nodiscard]] std::optional<std::size_t> Touched(const Candidate& candidate);
   void LimitSpeed(Candidate& candidate) const;

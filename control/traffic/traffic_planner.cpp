@@ -43,7 +43,7 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     kept_[k] = Kept(obstacles[objects[k].index]);
   }
   const double decided = stays_behind_ ? 0.0 : settings_.t_s * open_cycles_;
-  search_.Go(kept_, false, decided, go_);
+  search_.Go(kept_, Caution::kUsual, decided, go_);
 
   // The object behind which the vehicle could stay instead.
   std::optional<std::size_t> ahead = go_.blocker;
@@ -89,8 +89,11 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     }
     Take(behind_, decision, reason, ahead, obstacles);
   } else {
-    search_.Go(kept_, true, decided, go_);
-    Take(go_.possible ? go_ : behind_, Decision::kSqueeze,
+    const bool late = go_.blocker && objects[*go_.blocker].Moves();
+    if (late) search_.Go(kept_, Caution::kNoSpare, decided, go_);
+    const bool passes = late && go_.possible;
+    if (!passes) search_.Go(kept_, Caution::kSqueeze, decided, go_);
+    Take(go_.possible ? go_ : behind_, passes ? Decision::kPass : Decision::kSqueeze,
          go_.possible ? Reason::kTooLateToStop : Reason::kNoWay, ahead, obstacles);
     stay = !go_.possible;
   }

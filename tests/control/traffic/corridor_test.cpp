@@ -11,8 +11,6 @@
 namespace control {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
 constexpr double kHalfWidth = 0.9;
 constexpr double kSpeed = 10.0;
 constexpr double kPlace = 50.0;
@@ -53,7 +51,7 @@ class CorridorTest : public ::testing::Test {
     kept.resize(RoadObjects::kMost, Side::kNone);
     Way way;
     corridor_.Find(kStationsAhead, {.s = kPlace, .lateral = lateral, .speed = speed}, objects, kept,
-                   Steady(speed), kTime, squeeze, kNever, way);
+                   Steady(speed), {.squeeze = squeeze, .waits = kTime}, way);
     return way;
   }
   Side SideOf(const RoadObject& object, double lateral = 0.0) { return Find({object}, lateral).side[0]; }
@@ -179,7 +177,7 @@ TEST_F(CorridorTest, BesideAreTheObjectsThatOverlapTheVehicleOnTheWayFromOneStat
   // From station 9 to 10, the vehicle covers 15.7 m to 22 m ahead of its present place.
   const std::vector objects{Standing(15.2, 0.0, 0.4), Standing(15.2, 0.0, 0.6), Standing(22.5, 0.0, 0.4),
                             Standing(22.5, 0.0, 0.6), Car(40.0, 0.0, -10.0)};
-  const auto beside = corridor_.Beside(kStationsAhead, objects, Steady(kSpeed), 10, 0.0);
+  const auto beside = corridor_.Beside(kStationsAhead, objects, Steady(kSpeed), 10);
   EXPECT_EQ(std::vector(beside.begin(), beside.end()), (std::vector<std::size_t>{1, 3, 4}));
 }
 
@@ -189,8 +187,8 @@ TEST_F(CorridorTest, RoadThatNarrowsMovesTheWayAside) {
   Corridor corridor(kSettings, narrowing);
   const std::array<Side, RoadObjects::kMost> kept{};
   Way way;
-  corridor.Find(kStationsAhead, {.s = kPlace, .speed = kSpeed}, {}, kept, Steady(kSpeed), kTime, false,
-                kNever, way);
+  corridor.Find(kStationsAhead, {.s = kPlace, .speed = kSpeed}, {}, kept, Steady(kSpeed), {.waits = kTime},
+                way);
   ASSERT_EQ(way.reached, kStations);
   EXPECT_NEAR(way.lateral[4], 0.0, 1e-6);
   for (std::size_t j = 21; j < kStations; ++j) EXPECT_GE(way.lateral[j], kHalfWidth + 0.4 - 1e-6);
