@@ -12,17 +12,16 @@ namespace control {
 namespace {
 
 constexpr double kSpacing = 0.25;       // least distance between two knots along a plan [m]
-constexpr double kLeastSpacing = 1e-3;  // taken for knots that coincide inside a bend [m]
 constexpr double kLeastStep = 0.5;      // the same beyond it
-constexpr double kLaterals[] = {
-    2, 4};  // lateral accelerations beyond the plan's end: the usual; if the road's edge is near [m/s²]
-constexpr double kLeastDecay = 2.0;    // ℓ at least [m]
-constexpr double kDecayTime = 0.6;     // ℓ per speed, at least [s]
-constexpr double kSteepest = 1.0;      // |d'|
-constexpr double kLeastStretch = 0.2;  // beyond the centre of a bend
-constexpr double kDeceleration =
-    1.5;  // with which the vehicle comes to a standstill before the last knot [m/s²]
-constexpr double kLeastLength = 20.0;  // of the path beyond the plan [m]
+constexpr double kLeastSpacing = 1e-3;  // taken for knots that coincide inside a bend [m]
+constexpr double kLateral = 2.0;        // lateral acceleration beyond the plan's end [m/s²]
+constexpr double kSharpest = 4.0;       // the same where the road's edge is near
+constexpr double kLeastDecay = 2.0;     // ℓ at least [m]
+constexpr double kDecayTime = 0.6;      // ℓ per speed, at least [s]
+constexpr double kSteepest = 1.0;       // |d'|
+constexpr double kLeastStretch = 0.2;   // beyond the centre of a bend
+constexpr double kDeceleration = 1.5;   // of a stop that ends before the last knot [m/s²]
+constexpr double kLeastLength = 20.0;   // of the path beyond the plan [m]
 
 double DirectionOf(const State& z) {
   return z[kPsi] + (z[kUpsilon] > kMinSteeringSpeed ? std::atan2(z[kNu], z[kUpsilon]) : 0.0);
@@ -47,11 +46,17 @@ void StopPath::Follow(std::span<const State> plan, double s, const LateralPath& 
   const double step = std::max(length / static_cast<double>(kBeyond), kLeastStep);
   for (std::size_t k = 1; k <= kBeyond; ++k) {
     const double at = transition.s + static_cast<double>(k) * step;
-    const LateralPoint path = transition.At(at, beyond);
-    const RoutePoint road = profile_->At(at);
-    const double stretch = std::max(1.0 - road.curvature * path.offset, kLeastStretch);
-    Add({.p = Beside(road, path.offset), .direction = road.psi + std::atan(path.slope / stretch), .s = at});
+    Add(PointBeside(at, transition.At(at, beyond)));
   }
+}
+
+StopPathPoint StopPath::PointBeside(double s, const LateralPoint& path) const {
+  const RoutePoint road = profile_->At(s);
+  const double stretch = std::max(1.0 - road.curvature * path.offset, kLeastStretch);
+  return {.p = Beside(road, path.offset),
+          .direction = road.psi + std::atan(path.slope / stretch),
+          .curvature = road.curvature / stretch,
+          .s = s};
 }
 
 void StopPath::FollowPlan(std::span<const State> plan, double s) {
@@ -89,17 +94,16 @@ StopPath::Transition StopPath::TransitionTo(const LateralPath& beyond, double up
   const double d = OffsetFrom({road.X, road.Y}, road.psi, end.p).left;
   const double direction = std::clamp(WrapAngle(end.direction - road.psi), -1.0, 1.0);
   const double slope = std::clamp(std::tan(direction), -kSteepest, kSteepest);
+  // Without a path beside the road, e_end is the way that the decay of the slope takes, so that ℓ depends on the slope alone.
   const LateralPoint path = beyond.At(end.s);
-  Transition transition{.s = end.s};
-  for (const double lateral : kLaterals) {
+  const double e = beyond.exists ? d - path.offset : 0.0, e_slope = slope - path.slope;
+  Transition transition{.s = end.s, .slope = e_slope};
+  for (const double lateral : {kLateral, kSharpest}) {
     const double curvature = lateral / std::max(upsilon * upsilon, kLeastDecay);
-    // With this ℓ, e'' begins with that curvature; parallel to the road, e_end is the way that the decay of the slope takes.
-    const double e = d - path.offset, e_slope = beyond.exists ? slope - path.slope : slope;
     const double sharp = beyond.exists
                              ? std::abs(e_slope) + std::sqrt(e_slope * e_slope + curvature * std::abs(e))
-                             : std::abs(e_slope);
+                             : std::abs(e_slope);  // with ℓ = sharp/curvature, e'' begins with that curvature
     transition.decay = std::max({sharp / curvature, kDecayTime * upsilon, kLeastDecay});
-    transition.slope = e_slope;
     transition.offset = beyond.exists ? e : -e_slope * transition.decay;
     transition.parallel = d - transition.offset;
     if (!LeavesRoad(transition, beyond)) break;
@@ -122,11 +126,17 @@ StopPathPoint StopPath::At(double distance) const {
   const auto after = std::ranges::upper_bound(knots_, distance, {}, &Knot::distance);
   const Knot& from = after == knots_.begin() ? knots_.front() : *(after - 1);
   const double x = distance - from.distance;
-  if (after == knots_.begin() || after == knots_.end()) {
-    StopPathPoint straight = from.point;
-    straight.p += x * Along(straight.direction);
-    straight.s += x;
-    return straight;
+  if (after == knots_.begin()) {
+    StopPathPoint before = from.point;
+    before.p += x * Along(before.direction);
+    before.s += x;
+    return before;
+  }
+  if (after == knots_.end()) {  // only a vehicle that can hardly brake gets there
+    const RoutePoint road = profile_->At(from.point.s);
+    const double d = OffsetFrom({road.X, road.Y}, road.psi, from.point.p).left;
+    const double stretch = std::max(1.0 - road.curvature * d, kLeastStretch);
+    return PointBeside(from.point.s + x / stretch, {.offset = d});
   }
   const double share = x / (after->distance - from.distance);
   return {.p = from.point.p + share * (after->point.p - from.point.p),

@@ -37,8 +37,8 @@ class StopPath {
   StopPath(const VehicleParameters& vehicle, const RoadProfile& profile, int horizon, double half_width);
 
   // Lays the path along these N + 1 ≥ 1 states, but for the last few, the first of which is beside the road's arc length s
-  // [m], as found by local search; and then along `beyond` or, where that does not exist, parallel to the road. Does not
-  // allocate.
+  // [m], as found by local search; and then along `beyond` or, where that does not exist and after the length of a stop,
+  // parallel to the road. Does not allocate.
   void Follow(std::span<const State> plan, double s, const LateralPath& beyond);
 
   // The point at this distance from the path's begin, before which it is straight [m].
@@ -67,6 +67,8 @@ class StopPath {
     [[nodiscard]] LateralPoint At(double s, const LateralPath& path) const;
   };
   void Add(const StopPathPoint& point);
+  // The point of a path beside the road.
+  [[nodiscard]] StopPathPoint PointBeside(double s, const LateralPoint& path) const;
   void FollowPlan(std::span<const State> plan, double s);
   [[nodiscard]] Transition TransitionTo(const LateralPath& beyond, double upsilon) const;
   [[nodiscard]] bool LeavesRoad(const Transition& transition, const LateralPath& beyond) const;

@@ -12,7 +12,6 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr double kOffCentre = 0.02;    // cost of a lateral offset, per second and m² [1/m²]
 constexpr double kMovement = 0.04;     // cost of a lateral velocity, per second and (m/s)² [s²/m²]
 constexpr double kLateralSpeed = 2.0;  // lateral velocity above which the vehicle has to slow down [m/s]
-constexpr double kComfortable = 1.0;   // lateral acceleration with which a lane is left [m/s²]
 constexpr double kSteepest = 0.45;     // largest slope of a way
 constexpr double kChange = 0.7;        // cost of passing an object on another side than before [s]
 constexpr double kUnfinished =
@@ -30,18 +29,40 @@ bool IsKept(std::span<const Side> kept, std::size_t k) {
   return k < kept.size() && kept[k] != Side::kNone;
 }
 
-struct Times {
-  double from, to;
+// Where an object may be while the vehicle is between stations j − 1 and j.
+struct Encounter {
+  double from, to;              // times [s]
+  double ahead_from, ahead_to;  // distances of its centre from the vehicle's then [m]
 };
 
-// The times between which an object may be where the vehicle is between stations j − 1 and j. `kept`: the previous way counted
-// with it.
-Times TimesBeside(const RoadObject& object, const Stations& stations, const SpeedPlan& speeds, std::size_t j,
-                  const WayTerms& terms, bool kept) {
+// `kept`: the previous way counted with the object.
+Encounter EncounterWith(const RoadObject& object, const Stations& stations, const SpeedPlan& speeds,
+                        std::size_t j, const WayTerms& terms, bool kept) {
   const bool ahead = object.MovesAhead() && object.s > stations.s_0;
   const double spare = kept || ahead || !object.Moves() ? 0.0 : terms.spare;
-  return {.from = object.Since(std::max(speeds.t[j - 1] - spare, 0.0)),
-          .to = std::max(speeds.t[j], terms.waits) + spare};
+  const double from = object.Since(std::max(speeds.t[j - 1] - spare, 0.0));
+  const double to = std::max(speeds.t[j], terms.waits) + spare;
+  return {.from = from,
+          .to = to,
+          .ahead_from = object.SAt(from) - stations.At(j - 1),
+          .ahead_to = object.SAt(to) - stations.At(j)};
+}
+
+// What an object ahead covers that is passed on `side`: its lane is left at once, but no faster than is comfortable. The
+// vehicle covers `ahead` [m] within the time t [s].
+void LeaveLane(Side side, const RoadPosition& vehicle, double ahead, double t, double half_width,
+               Covered& covered) {
+  constexpr double kComfortable = 1.0;  // lateral acceleration [m/s²]
+  const double apart = half_width + covered.margin.wanted;
+  const double straight = vehicle.lateral + vehicle.slope * ahead;
+  const double moved = 0.5 * kComfortable * t * t;
+  if (side == Side::kLeft) {
+    covered.left = std::min(covered.left, straight + moved - apart);
+    covered.right = -kOtherSide;
+  } else {
+    covered.right = std::max(covered.right, straight - moved + apart);
+    covered.left = kOtherSide;
+  }
 }
 
 }  // namespace
@@ -49,16 +70,14 @@ Times TimesBeside(const RoadObject& object, const Stations& stations, const Spee
 std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::span<const RoadObject> objects,
                                               const SpeedPlan& speeds, std::size_t j, const WayTerms& terms,
                                               std::span<const Side> kept) {
-  const double s_0 = stations.At(j - 1), s_1 = stations.At(j);
   std::size_t count = 0;
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const RoadObject& object = objects[k];
-    const auto [t_0, t_1] = TimesBeside(object, stations, speeds, j, terms, IsKept(kept, k));
-    const double ahead_0 = object.SAt(t_0) - s_0, ahead_1 = object.SAt(t_1) - s_1;
-    const bool near = t_0 > terms.leaves && object.MovesAhead() && ahead_1 > 0.0 &&
-                      ahead_1 - object.half_length - settings_.footprint.front <
+    const Encounter met = EncounterWith(object, stations, speeds, j, terms, IsKept(kept, k));
+    const bool near = met.from > terms.leaves && object.MovesAhead() && met.ahead_to > 0.0 &&
+                      met.ahead_to - object.half_length - settings_.footprint.front <
                           WayToStopBehind(speeds.v[j], object.speed, settings_.deceleration);
-    if (near || object.IsBeside(settings_.footprint, ahead_0, ahead_1)) beside_[count++] = k;
+    if (near || object.IsBeside(settings_.footprint, met.ahead_from, met.ahead_to)) beside_[count++] = k;
   }
   return {beside_.data(), count};
 }
@@ -87,8 +106,8 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
   std::size_t count = 0;
   for (const std::size_t k : beside) {
     const RoadObject& object = objects[k];
-    const auto [t_0, t_1] = TimesBeside(object, stations, speeds, j, terms, IsKept(kept, k));
-    const double from = object.LateralAt(t_0), to = object.LateralAt(t_1);
+    const Encounter met = EncounterWith(object, stations, speeds, j, terms, IsKept(kept, k));
+    const double from = object.LateralAt(met.from), to = object.LateralAt(met.to);
     Margin margin = MarginTo(object.object_class, speeds.v[j], settings_.obstacle_margin);
     if (speeds.t[j - 1] < present_gap_time) {
       const double apart = std::abs(vehicle.lateral - object.lateral) - object.half_width - half_width;
@@ -100,21 +119,8 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
         .right = object.side == PassingSide::kLeft ? -kOtherSide : std::min(from, to) - object.half_width,
         .left = object.side == PassingSide::kRight ? kOtherSide : std::max(from, to) + object.half_width,
         .margin = margin};
-    const bool is_beside = object.IsBeside(settings_.footprint, object.SAt(t_0) - stations.At(j - 1),
-                                           object.SAt(t_1) - stations.At(j));
-    // Its lane is left at once, but no faster than is comfortable.
-    if (!is_beside && IsKept(kept, k)) {
-      const double apart = half_width + margin.wanted, t = speeds.t[j];
-      const double straight = vehicle.lateral + vehicle.slope * (stations.At(j) - stations.s_0);
-      const double moved = 0.5 * kComfortable * t * t;
-      if (kept[k] == Side::kLeft) {
-        covered = {
-            .right = -kOtherSide, .left = std::min(covered.left, straight + moved - apart), .margin = margin};
-      } else {
-        covered = {
-            .right = std::max(covered.right, straight - moved + apart), .left = kOtherSide, .margin = margin};
-      }
-    }
+    if (IsKept(kept, k) && !object.IsBeside(settings_.footprint, met.ahead_from, met.ahead_to))
+      LeaveLane(kept[k], vehicle, stations.At(j) - stations.s_0, speeds.t[j], half_width, covered);
     covered_[count++] = covered;
   }
   const RoadBounds road = NarrowestAt(stations.At(j), stations.spacing);

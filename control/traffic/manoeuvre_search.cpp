@@ -258,9 +258,10 @@ Reason ManoeuvreSearch::Obstruction(std::span<const Side> kept, const WayTerms& 
   const auto objects = objects_.objects();
   const std::size_t reached = candidate.way.reached;
   Reason reason = Reason::kRoadTooNarrow;
-  // Around the last station, too: what is met there may have closed the lane in which the way would lead on.
-  for (std::size_t j = std::max<std::size_t>(reached, 6) - 5;
-       j < std::min(reached + 6, candidate.speeds.count); ++j) {
+  // What is met a little before or after the way's end may have closed the lane in which it would lead on.
+  constexpr std::size_t kAround = 5;  // stations
+  for (std::size_t j = std::max(reached, kAround + 1) - kAround;
+       j < std::min(reached + kAround + 1, candidate.speeds.count); ++j) {
     for (const std::size_t k : corridor_.Beside(stations_, objects, candidate.speeds, j,
                                                 {.leaves = terms.leaves, .spare = terms.spare}, kept)) {
       if (objects[k].ComesTowards()) return Reason::kOncomingFirst;

@@ -9,6 +9,7 @@ namespace control {
 namespace {
 
 constexpr double kReaction = 1.0;       // [s]
+constexpr double kStands = 0.01;        // speed at most [m/s]
 constexpr double kBrakesAtLeast = 3.0;  // [m/s²]
 
 // Distance that is covered in the time t by braking from `speed` to a stop.
@@ -23,7 +24,6 @@ double TimeToNearest(const Obstacle& obstacle, const RoadObject& object, double 
                      const Eigen::Vector2d& position, double s, double s_0) {
   const Eigen::Vector2d velocity(obstacle.velocity_X, obstacle.velocity_Y);
   const double speed = object.crosses ? velocity.norm() : std::abs(object.speed);
-  constexpr double kStands = 0.01;  // [m/s]
   if (speed <= kStands) return 0.0;
   const bool gives_way = !object.crosses && (object.ComesTowards() || object.s < s_0);
   const double shortest = BrakingWay(speed, StopLine::kHardest, time);

@@ -83,7 +83,7 @@ TEST(StopPath, BeyondThePlanItRunsBesideTheRoadWithoutAKink) {
                   0.0, 0.05)
           << x;
     }
-    const StopPathPoint far = path.At(50.0);
+    const StopPathPoint far = path.At(60.0);
     EXPECT_NEAR(far.direction, road.At(far.s).psi, 0.01);
     EXPECT_NEAR(far.curvature, curvature, 0.002);
   }
