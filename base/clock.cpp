@@ -25,6 +25,10 @@ std::chrono::sys_time<Time> RealNow() {
   return std::chrono::sys_time<Time>(Read(CLOCK_REALTIME));
 }
 
+Time ThreadTimeNow() {
+  return Read(CLOCK_THREAD_CPUTIME_ID);
+}
+
 Timer::Timer()
     : fd_(Checked(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC), "timerfd_create")) {}
 

@@ -1,4 +1,4 @@
-// The clocks of the daemon, and a timer that epoll can wait for.
+// The clocks of the daemon and of measurements, and a timer that epoll can wait for.
 #pragma once
 
 #include "base/file_descriptor.hpp"
@@ -10,6 +10,8 @@ namespace base {
 [[nodiscard]] Time MonotonicNow();
 // CLOCK_REALTIME, the clock of the kernel's frame timestamps. It may be set at any time.
 [[nodiscard]] std::chrono::sys_time<Time> RealNow();
+// CLOCK_THREAD_CPUTIME_ID: the time for which the calling thread has had a processor.
+[[nodiscard]] Time ThreadTimeNow();
 
 // A timer on CLOCK_MONOTONIC. A failed system call throws std::runtime_error.
 class Timer {

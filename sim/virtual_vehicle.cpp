@@ -67,15 +67,20 @@ void VirtualVehicle::Emit(const bus::Message& message, std::uint8_t counter, can
   frames_.push_back(frame);
 }
 
+std::vector<control::Obstacle> VirtualVehicle::PerceivedNow() const {
+  std::vector<control::Obstacle> perceived = ObstaclesNow();
+  std::erase_if(perceived, [this](const control::Obstacle& o) { return !traffic_.IsPerceived(o.id); });
+  return perceived;
+}
+
 void VirtualVehicle::EmitObstacles(can::Time now) {
   const auto emit = [&](const bus::Message& message) {
     Emit(message, object_counter_, now);
     object_counter_ = dbc::NextCounter(object_counter_);
   };
-  std::uint8_t count = 0;
-  for (const control::Obstacle& obstacle : ObstaclesNow()) {
-    if (!traffic_.IsPerceived(obstacle.id)) continue;
-    ++count;
+  std::vector<control::Obstacle> perceived = PerceivedNow();
+  perceived.insert(perceived.end(), ghosts_.begin(), ghosts_.end());
+  for (const control::Obstacle& obstacle : perceived) {
     const auto id = static_cast<std::uint8_t>(obstacle.id);
     emit(bus::ObstaclePosition{.object_id = id, .X = obstacle.X, .Y = obstacle.Y});
     emit(bus::ObstacleShape{.object_id = id,
@@ -89,7 +94,7 @@ void VirtualVehicle::EmitObstacles(can::Time now) {
                              .velocity_Y = obstacle.velocity_Y,
                              .object_class = OnBus(obstacle.object_class)});
   }
-  Emit(bus::ObstacleList{.count = count}, list_counter_, now);
+  Emit(bus::ObstacleList{.count = static_cast<std::uint8_t>(perceived.size())}, list_counter_, now);
   list_counter_ = dbc::NextCounter(list_counter_);
 }
 

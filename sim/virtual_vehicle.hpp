@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bus/vehicle_bus.hpp"
@@ -39,10 +40,13 @@ class VirtualVehicle {
   VirtualVehicle(const Scenario& scenario, const bus::VehicleBus& bus);
 
   // Returns the frames of one cycle, stamped `now`; must be called once per cycle: DriverRequest, three of
-  // ObstacleObject for each obstacle that has appeared and has not disappeared, ObstacleList, then the state set:
+  // ObstacleObject for each obstacle that has appeared and has not disappeared and each ghost, ObstacleList, then the state set:
   // VehiclePose, VehicleMotion, VehicleFeedback. They are valid until the next call. A message with a value that is not
   // finite is omitted.
   [[nodiscard]] std::span<const can::Frame> Sense(can::Time now);
+
+  // Sets objects that are perceived beside the scenario's from now on, though they do not exist. Their ids must differ.
+  void SetGhosts(std::vector<control::Obstacle> ghosts) { ghosts_ = std::move(ghosts); }
 
   // Takes a frame of the controller. A frame with a wrong CRC or of another sender has no effect.
   void Receive(const can::Frame& frame);
@@ -64,6 +68,8 @@ class VirtualVehicle {
   }
   // Those that exist, including those not yet perceived.
   [[nodiscard]] std::vector<control::Obstacle> ObstaclesNow() const { return traffic_.Now(); }
+  // Those that exist and are perceived.
+  [[nodiscard]] std::vector<control::Obstacle> PerceivedNow() const;
   // The commands last received, if both are to be obeyed.
   [[nodiscard]] std::optional<control::Input> commands() const;
 
@@ -104,6 +110,7 @@ class VirtualVehicle {
   Sensors sensors_;
   Driver driver_;
   Traffic traffic_;
+  std::vector<control::Obstacle> ghosts_;
 
   std::int64_t cycle_ = 0;
   std::uint8_t request_counter_ = 0;

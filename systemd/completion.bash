@@ -20,7 +20,7 @@ _lpvmpcd() {
     --out | --record-qp | --scenarios) _filedir -d && return ;;
     --json) [[ ${words[1]} == catalogue ]] && _filedir json && return ;; # elsewhere without a value
     --report) _filedir html && return ;;
-    --horizon | --repeat | --jobs | --timeout | --count | --budget | --worst | --filter | --seed | --sweep-seed | --traffic-key | --speed | --mu | --shard) return ;; # numbers, texts
+    --horizon | --objects | --repeat | --jobs | --timeout | --count | --budget | --worst | --filter | --seed | --sweep-seed | --traffic-key | --speed | --mu | --shard) return ;; # numbers, texts
   esac
 
   # The command so far: each word that names a subcommand of the one before it.

@@ -91,6 +91,32 @@ TEST_F(VirtualVehicleTest, TellsStateAndObstaclesAsTheyAre) {
   EXPECT_EQ(positions, 2);
 }
 
+TEST_F(VirtualVehicleTest, TellsGhostsAfterTheObstaclesThatItPerceives) {
+  VirtualVehicle vehicle(files_.Load("[[obstacle]]\nid = 1\ns = 50\nr_x = 1\nr_y = 1\n"
+                                     "[[obstacle]]\nid = 2\ns = 70\nr_x = 1\nr_y = 1\nappears_at = 5\n"),
+                         bus_);
+  vehicle.SetGhosts({{.id = 40, .X = 33.0, .Y = -2.0}, {.id = 41, .X = 34.0}});
+  std::vector<int> ids;
+  int count = -1;
+  for (const can::Frame& frame : vehicle.Sense({})) {
+    const bus::Message message = bus_.Decode(frame.id, frame.Payload()).value();
+    if (const auto* position = std::get_if<bus::ObstaclePosition>(&message)) {
+      ids.push_back(position->object_id);
+      if (position->object_id == 40) {
+        EXPECT_NEAR(position->X, 33.0, 1e-3);
+        EXPECT_NEAR(position->Y, -2.0, 1e-3);
+      }
+    } else if (const auto* list = std::get_if<bus::ObstacleList>(&message)) {
+      count = list->count;
+    }
+  }
+  EXPECT_THAT(ids, ElementsAre(1, 40, 41));
+  EXPECT_EQ(count, 3);
+  ASSERT_EQ(vehicle.PerceivedNow().size(), 1U);
+  EXPECT_EQ(vehicle.PerceivedNow().front().id, 1);
+  EXPECT_EQ(vehicle.ObstaclesNow().size(), 2U) << "ghosts do not exist";
+}
+
 TEST_F(VirtualVehicleTest, TellsShapeAndClassOfEachObstacle) {
   const std::vector<std::pair<std::string, bus::ObstacleClass>> classes{
       {"unknown", bus::ObstacleClass::kUnknown},

@@ -21,6 +21,10 @@ class Times {
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
   }
 
+  // Takes a time that was measured elsewhere [µs].
+  void Add(double time) { all_.push_back(time); }
+  void Add(const Times& others) { all_.insert(all_.end(), others.all_.begin(), others.all_.end()); }
+
   [[nodiscard]] std::size_t count() const { return all_.size(); }
   [[nodiscard]] double Median() const { return At(0.5); }
   [[nodiscard]] double P99() const { return At(0.99); }

@@ -23,23 +23,6 @@
 namespace tools {
 namespace {
 
-std::vector<std::string> NamesIn(const std::filesystem::path& folder, const std::string& filter) {
-  if (!std::filesystem::is_directory(folder)) {
-    throw std::invalid_argument(fmt::format("{}: is not a folder", config::PlaceName(folder)));
-  }
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (entry.is_directory() && name.find(filter) != std::string::npos) names.push_back(name);
-  }
-  if (names.empty()) {
-    throw std::invalid_argument(fmt::format("{}: holds no scenario with '{}' in its name",
-                                            config::PlaceName(folder), config::Printable(filter)));
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 // What a child process hands to its parent.
 std::string DriveOne(const std::filesystem::path& file, bool shown) {
   const sim::Scenario scenario = sim::LoadScenario(file);
@@ -95,6 +78,23 @@ CatalogueDrive ReadDrive(const std::string& name, const std::string& text,
 
 }  // namespace
 
+std::vector<std::string> ScenariosIn(const std::filesystem::path& folder, const std::string& filter) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw std::invalid_argument(fmt::format("{}: is not a folder", config::PlaceName(folder)));
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name.find(filter) != std::string::npos) names.push_back(name);
+  }
+  if (names.empty()) {
+    throw std::invalid_argument(fmt::format("{}: holds no scenario with '{}' in its name",
+                                            config::PlaceName(folder), config::Printable(filter)));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 const char* NameOf(CatalogueOutcome outcome) {
   switch (outcome) {
     case CatalogueOutcome::kPassed:
@@ -111,7 +111,7 @@ const char* NameOf(CatalogueOutcome outcome) {
 
 std::vector<CatalogueDrive> DriveCatalogue(const std::filesystem::path& folder, const std::string& filter,
                                            int jobs, bool shown) {
-  const std::vector<std::string> names = NamesIn(folder, filter);
+  const std::vector<std::string> names = ScenariosIn(folder, filter);
   const std::map<std::string, std::string> open = LoadOpenList(folder);
   ProgressBar bar(names.size());
   bar.Name("catalogue");

@@ -34,6 +34,10 @@ struct CatalogueDrive {
   std::string shown;                        // its part of a page (ShownDrive); "" if it is not to be shown
 };
 
+// The names of the scenarios' folders that contain `filter`, in order. Throws std::invalid_argument if there are none.
+[[nodiscard]] std::vector<std::string> ScenariosIn(const std::filesystem::path& folder,
+                                                   const std::string& filter);
+
 // Drives those scenarios whose folder's name contains `filter`, `jobs` at a time, each in its own process, and returns
 // them by name; with `shown`, each with its part of a page. Throws std::invalid_argument if there are none;
 // config::ConfigError or std::runtime_error, with a one-line message, if a file is missing or wrong.

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 
+#include "tools/bench/bench_catalogue.hpp"
 #include "tools/bench/bench_qp.hpp"
 #include "tools/bench/bench_step.hpp"
 #include "tools/commands/command.hpp"
@@ -42,12 +43,39 @@ Command AddBenchQp(CLI::App& bench) {
           }};
 }
 
+Command AddBenchCatalogue(CLI::App& bench) {
+  const auto options = std::make_shared<BenchCatalogueOptions>();
+  CLI::App* command =
+      bench.add_subcommand("catalogue", "time the whole control cycle in all scenarios of the catalogue");
+  command->add_option("--scenarios", options->folder,
+                      "folder with the catalogue, instead of the installed one");
+  command->add_option("--filter", options->filter, "drive only the scenarios whose name contains this text");
+  command->add_option("--horizon", options->horizon, "horizon N")
+      ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  command->add_option("--objects", options->objects, "number of objects up to which posts are added")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  command->add_option("--repeat", options->repeat, "number of drives of each scenario")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print the figures as JSON");
+  return {.app = command, .run = [options] {
+            if (options->folder.empty()) options->folder = Scenarios("catalogue");
+            BenchCatalogue(*options, std::cout);
+            return 0;
+          }};
+}
+
 }  // namespace
 
 std::vector<Command> AddBench(CLI::App& program) {
   CLI::App* bench = program.add_subcommand("bench", "time parts of the controller")->require_subcommand(0, 1);
-  const auto missing = []() -> int { throw CLI::RequiredError("a command: bench step or bench qp"); };
-  return {AddBenchStep(*bench), AddBenchQp(*bench), {.app = bench, .run = missing}};
+  const auto missing = []() -> int {
+    throw CLI::RequiredError("a command: bench step, bench catalogue or bench qp");
+  };
+  return {
+      AddBenchStep(*bench), AddBenchCatalogue(*bench), AddBenchQp(*bench), {.app = bench, .run = missing}};
 }
 
 }  // namespace tools

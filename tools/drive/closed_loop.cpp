@@ -3,6 +3,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -42,11 +43,21 @@ sim::Summary DriveClosedLoop(const sim::Scenario& scenario, const loop::Config& 
   loop::Assembly controller(untimed, route, base::MonotonicNow, make);
   sim::VirtualVehicle vehicle(scenario, controller.bus());
   sim::Recorder recorder(scenario);
+  const auto cycle = [&](base::Time now) {
+    if (!hooks.cycle) return controller.loop().Cycle(now, loop::Trigger::kState);
+    const base::Time wall = base::MonotonicNow(), processor = base::ThreadTimeNow();
+    const std::span<const can::Frame> answers = controller.loop().Cycle(now, loop::Trigger::kState);
+    const CycleTimes times{.wall = base::MonotonicNow() - wall,
+                           .processor = base::ThreadTimeNow() - processor};
+    hooks.cycle(times, controller.loop().report());
+    return answers;
+  };
   for (base::Time now{}; !recorder.finished(); now += config.loop.period) {
+    if (hooks.sense) hooks.sense(vehicle);
     for (const can::Frame& frame : vehicle.Sense(can::Time(now))) {
       if (hooks.frame) hooks.frame(frame);
       if (!controller.loop().Receive(frame, now)) continue;
-      for (can::Frame answer : controller.loop().Cycle(now, loop::Trigger::kState)) {
+      for (can::Frame answer : cycle(now)) {
         answer.timestamp = can::Time(now);
         if (hooks.frame) hooks.frame(answer);
         vehicle.Receive(answer);

@@ -4,14 +4,23 @@
 
 #include <functional>
 
+#include "base/time.hpp"
 #include "can/frame.hpp"
 #include "config/route_file.hpp"
 #include "loop/config.hpp"
+#include "loop/cycle_report.hpp"
 #include "sim/scenario.hpp"
 #include "sim/summary.hpp"
+#include "sim/virtual_vehicle.hpp"
 #include "tools/drive/observed_controller.hpp"
 
 namespace tools {
+
+// The time that a control cycle took, from the complete state to the frames to be sent.
+struct CycleTimes {
+  base::Time wall{};
+  base::Time processor{};  // without the time for which the thread had to wait for others
+};
 
 struct ClosedLoopHooks {
   // Called with every frame of both sides, stamped with synthetic time.
@@ -20,6 +29,10 @@ struct ClosedLoopHooks {
   std::function<void(const StepObservation&)> step = nullptr;
   // Called with every quadratic problem before it is solved. Requires a controller that solves quadratic problems.
   control::QpObserver qp = nullptr;
+  // Called in every cycle before the vehicle measures and perceives.
+  std::function<void(sim::VirtualVehicle&)> sense = nullptr;
+  // Called after every control cycle with its times and its report.
+  std::function<void(const CycleTimes&, const loop::CycleReport&)> cycle = nullptr;
   // Called after every cycle; true ends the drive.
   std::function<bool()> stop = nullptr;
 };
