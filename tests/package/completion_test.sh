@@ -41,7 +41,7 @@ Completes '--scenario' lpvmpc-sim --interface vcan0 --s
 Completes 'a.toml drive' lpvmpc-sim --scenario ''
 Completes 'bench catalogue decode falsify paper report run sweep' lpvmpc ''
 Completes 'report run' lpvmpc r
-Completes 'qp step' lpvmpc bench ''
+Completes 'catalogue qp step' lpvmpc bench ''
 Completes '--horizon' lpvmpc bench step --hor
 Completes '--map' lpvmpc paper --m
 Completes 'lpv lpv-affine lpv-standard nmpc nmpc-affine' lpvmpc run --controller ''
