@@ -49,8 +49,9 @@ void LpvAffineMpc::AddFrictionRows(int i) {
 void LpvAffineMpc::AddBodyRows(int i) {
   const State& z_hat = prediction_.z()[Index(i)];
   const State& z_ref = tracking_.reference()[Index(i)];
+  const Eigen::Matrix2d to_map = Eigen::Rotation2Dd(z_hat[kPsi]).toRotationMatrix();
   for (const BodyRow& row : tracking_.rows(Index(i))) {
-    const Eigen::Vector2d arm = Rotate(z_hat[kPsi], row.fixed);
+    const Eigen::Vector2d arm = to_map * row.fixed;
     QpState C = QpState::Zero();
     C[kX] = row.normal.x();
     C[kY] = row.normal.y();

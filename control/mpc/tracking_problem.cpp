@@ -30,12 +30,13 @@ TrafficSettings TrafficSettingsOf(const VehicleParameters& vehicle, const LpvAff
   return traffic;
 }
 
-// Distance of the nearest corner from the half-space's edge, negative outside the half-space [m].
-double Clearance(const HalfSpace& outside, const State& z, const Footprint& footprint) {
+// Distance of the nearest corner from the half-space's edge, negative outside the half-space [m]; `arms`: from the vehicle's
+// centre to its corners, in the map.
+double Clearance(const HalfSpace& outside, const State& z, const std::array<Vector2d, 4>& arms) {
   const Vector2d normal(outside.a, outside.b);
   double least = std::numeric_limits<double>::infinity();
-  for (const Vector2d& corner : footprint.Corners()) {
-    least = std::min(least, normal.dot(Position(z) + Rotate(z[kPsi], corner)) - outside.c);
+  for (const Vector2d& arm : arms) {
+    least = std::min(least, normal.dot(Position(z) + arm) - outside.c);
   }
   return least;
 }
@@ -178,12 +179,17 @@ void TrackingProblem::AddObstacles(std::size_t i, const State& z_hat) {
     HalfSpace outside;
     int id = 0;
   };
+  const std::array<Vector2d, 4> corners = settings_.footprint.Corners();
+  const Eigen::Matrix2d to_map = Eigen::Rotation2Dd(z_hat[kPsi]).toRotationMatrix();
+  std::array<Vector2d, 4> arms;
+  std::ranges::transform(corners, arms.begin(),
+                         [&](const Vector2d& corner) -> Vector2d { return to_map * corner; });
   std::array<Near, kMostObstacles + 1> nearest;
   std::size_t count = 0;
   for (std::size_t k = 0; k < manoeuvre_->objects.size(); ++k) {
     const auto outside = Outside(k, i, z_hat);
     if (!outside) continue;
-    const Near object{.clearance = Clearance(*outside, z_hat, settings_.footprint),
+    const Near object{.clearance = Clearance(*outside, z_hat, arms),
                       .outside = *outside,
                       .id = obstacles_[manoeuvre_->objects[k].index].id};
     const auto end = nearest.begin() + static_cast<std::ptrdiff_t>(count);
@@ -195,10 +201,9 @@ void TrackingProblem::AddObstacles(std::size_t i, const State& z_hat) {
   for (std::size_t k = 0; k < count; ++k) {
     const HalfSpace& outside = nearest[k].outside;
     const Vector2d normal(outside.a, outside.b);
-    std::array<Vector2d, 4> corners = settings_.footprint.Corners();
-    std::ranges::sort(corners, {},
-                      [&](const Vector2d& corner) { return normal.dot(Rotate(z_hat[kPsi], corner)); });
-    for (const std::size_t corner : {0U, 1U}) {
+    std::array<std::size_t, 4> order{0, 1, 2, 3};
+    std::ranges::sort(order, {}, [&](std::size_t corner) { return normal.dot(arms[corner]); });
+    for (const std::size_t corner : {order[0], order[1]}) {
       Add(i, {.normal = normal,
               .fixed = corners[corner],
               .lo = outside.c,

@@ -36,9 +36,13 @@ std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide 
   // Road axes: t along the road, n towards the passing side. From the obstacle's centre, the vehicle covers `rear` to
   // `front` along t. The tangent touches the obstacle's edge over that interval, as near as possible to its widest
   // point.
-  const EnlargedObstacle enlarged(obstacle, margin);
   const double place = t.dot(Vector2d(z[kX] - obstacle.X, z[kY] - obstacle.Y));
   const double rear = place - footprint.rear, front = place + footprint.front;
+  // For most obstacles a circle tells that they are elsewhere along the road.
+  constexpr double kRounding = 1e-6;  // [m]
+  const double most = EnclosingRadius(obstacle) + std::max(margin, 0.0) + reach + kRounding;
+  if (rear >= most || front <= -most) return std::nullopt;
+  const EnlargedObstacle enlarged(obstacle, margin);
   const double half_length = enlarged.Support(t);
   if (rear >= half_length + reach || front <= -half_length - reach) return std::nullopt;
 

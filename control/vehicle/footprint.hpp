@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "control/vehicle/types.hpp"
 
@@ -19,6 +21,8 @@ struct Footprint {
   [[nodiscard]] std::array<Eigen::Vector2d, 4> Corners() const {
     return {{{front, half_width}, {front, -half_width}, {-rear, -half_width}, {-rear, half_width}}};
   }
+  // Distance of the farthest corner from the centre of gravity [m].
+  [[nodiscard]] double Reach() const { return std::hypot(std::max(front, rear), half_width); }
 };
 
 }  // namespace control

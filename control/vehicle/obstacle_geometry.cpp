@@ -33,11 +33,12 @@ double Cross(const Vector2d& a, const Vector2d& b) {
 // In the ellipse's axes, scaled by its semi-axes, it is the unit circle and the rectangle a parallelogram.
 double EllipseOverlap(const Obstacle& obstacle, const Footprint& footprint, const State& z) {
   std::array<Vector2d, 4> corners = footprint.Corners();
-  const Eigen::Rotation2Dd to_axes(-obstacle.heading);
+  const Eigen::Matrix2d to_axes = Eigen::Rotation2Dd(-obstacle.heading).toRotationMatrix();
+  const Eigen::Matrix2d to_map = Eigen::Rotation2Dd(z[kPsi]).toRotationMatrix();
   const Vector2d axes = Vector2d(obstacle.r_x, obstacle.r_y).cwiseMax(kSmallest);
   const Vector2d centre(obstacle.X, obstacle.Y);
   for (Vector2d& corner : corners)
-    corner = (to_axes * (Position(z) + Rotate(z[kPsi], corner) - centre)).cwiseQuotient(axes);
+    corner = (to_axes * (Position(z) + to_map * corner - centre)).cwiseQuotient(axes);
   double nearest = corners[0].norm();
   bool inside = footprint.half_width > 0.0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -115,9 +116,18 @@ double EnlargedObstacle::BoxSlope(const Vector2d& t, const Vector2d& n, double r
 }
 
 double Overlap(const Obstacle& obstacle, const Footprint& footprint, const State& z) {
+  // Most things are so far away that circles about both tell it.
+  const double apart =
+      (Position(z) - Vector2d(obstacle.X, obstacle.Y)).norm() - footprint.Reach() - EnclosingRadius(obstacle);
+  if (apart > 0.0) return -apart;
   if (obstacle.shape == ObstacleShape::kBox)
     return Overlap(RectangleOf(obstacle), RectangleOf(footprint, Position(z), z[kPsi]));
   return EllipseOverlap(obstacle, footprint, z);
+}
+
+double EnclosingRadius(const Obstacle& obstacle) {
+  if (obstacle.shape == ObstacleShape::kBox) return std::hypot(obstacle.r_x, obstacle.r_y);
+  return std::max({obstacle.r_x, obstacle.r_y, kSmallest});
 }
 
 Obstacle EnclosingEllipse(const Obstacle& obstacle) {

@@ -37,9 +37,12 @@ class EnlargedObstacle {
 };
 
 // Roughly how far the rectangle of a vehicle in state `z` reaches into the obstacle [m]; negative if they are apart.
-// For an ellipse it is the depth as a fraction of the radius times the smaller semi-axis; for a box, the least shift
+// Of things that are far apart, it is the distance of circles about them. For an ellipse it is the depth as a fraction of the radius times the smaller semi-axis; for a box, the least shift
 // that separates them.
 [[nodiscard]] double Overlap(const Obstacle& obstacle, const Footprint& footprint, const State& z);
+
+// The radius of the circle about the obstacle's centre that encloses it [m].
+[[nodiscard]] double EnclosingRadius(const Obstacle& obstacle);
 
 // The obstacle if it is an ellipse; otherwise the ellipse through the corners of the box with the least area: its
 // semi-axes are √2 times the half sides.

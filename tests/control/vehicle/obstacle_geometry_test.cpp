@@ -114,6 +114,15 @@ TEST(EnlargedObstacle, EdgeOfABoxAlongTheRoadIsLevelBesideItAndInfinitelySteepBe
   }
 }
 
+TEST(Overlap, OfThingsFarApartIsTheDistanceOfTheCirclesAboutThem) {
+  const Footprint car{.front = 3.0, .rear = 2.0, .half_width = 4.0};
+  State z = State::Zero();
+  z[kX] = 20.0;
+  EXPECT_NEAR(Overlap({.r_x = 2.0, .r_y = 1.0}, car, z), -(20.0 - 5.0 - 2.0), 1e-12);
+  EXPECT_NEAR(Overlap({.r_x = 4.0, .r_y = 3.0, .shape = ObstacleShape::kBox}, car, z), -(20.0 - 5.0 - 5.0),
+              1e-12);
+}
+
 TEST(Overlap, WithABoxIsPositiveExactlyWhereTheTwoShareAPoint) {
   testing::Random random(3);
   const Footprint car{.front = 1.95, .rear = 2.3, .half_width = 0.9};
