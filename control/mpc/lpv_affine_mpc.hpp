@@ -10,8 +10,8 @@
 //   min   Σ |z_i − z_ref_i|²_Q + |u_i − u_ref_i|²_R + |Δu_i|²_R_rate + penalties
 //   hard  |Δu_i| ≤ rate_max, u_min ≤ u_i ≤ u_max
 //   soft  0 ≤ υ ≤ υ_max;   road and obstacles with the vehicle's footprint;
-//         |υω − a_y| ≤ r, |υω − a_y ± a| ≤ √2 r: an octagon about the friction circle of radius r, without its sides
-//         |a| ≤ r, which the bounds of a replace;
+//         |υω − a_y| ≤ r, |υω − a_y ± a| ≤ √2 r: with |a| ≤ r among the bounds of a, an octagon about the
+//         friction circle of radius r;
 //         |p_i − p̂_i| ≤ e for p = [υ ν ψ δ]: the trust region
 //
 // F contains the step's disturbance (control/vehicle/disturbance.hpp), and so does the reference, so that a lasting

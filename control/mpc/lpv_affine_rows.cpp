@@ -8,6 +8,7 @@
 namespace control {
 
 void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
+  const Input u_min = LeastInput(settings_, grip_), u_max = MostInput(settings_, grip_);
   for (int j = 0; j < kInputs; ++j) {
     const double step = settings_.rate_max[j];
     if (i < settings_.horizon) {
@@ -15,8 +16,8 @@ void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
     }
     if (i == 0) continue;
     // An input that is out of range returns as fast as its rate allows.
-    const double lo = std::min(settings_.u_min[j], u_previous[j] + i * step);
-    const double hi = std::max(settings_.u_max[j], u_previous[j] - i * step);
+    const double lo = std::min(u_min[j], u_previous[j] + i * step);
+    const double hi = std::max(u_max[j], u_previous[j] - i * step);
     const double u_ref = tracking_.reference_input()[Index(i - 1)][j];
     rows_.AddStateBound({.kind = ConstraintKind::kInput, .index = j, .step = i}, kPreviousInput + j,
                         lo - u_ref, hi - u_ref);

@@ -56,4 +56,12 @@ struct LpvAffineSettings {
   return settings.friction_share * std::min(settings.mu, mu_limit) * kGravity;
 }
 
+// Bounds of the inputs where the tyres give at most r = `grip` [m/s²].
+[[nodiscard]] inline Input LeastInput(const LpvAffineSettings& settings, double grip) {
+  return {settings.u_min[kDelta], std::max(settings.u_min[kAcceleration], -grip)};
+}
+[[nodiscard]] inline Input MostInput(const LpvAffineSettings& settings, double grip) {
+  return {settings.u_max[kDelta], std::min(settings.u_max[kAcceleration], grip)};
+}
+
 }  // namespace control

@@ -26,7 +26,9 @@ TrafficSettings TrafficSettingsOf(const VehicleParameters& vehicle, const LpvAff
                           .t_s = settings.t_s,
                           .grip = Grip(settings),
                           .path = {}};
-  traffic.path.max_curvature = std::tan(settings.u_max[kDelta]) / (vehicle.l_f + vehicle.l_r);
+  const double wheelbase = vehicle.l_f + vehicle.l_r;
+  traffic.path.max_curvature = std::tan(settings.u_max[kDelta]) / wheelbase;
+  traffic.curvature_rate = settings.rate_max[kDelta] / settings.t_s / wheelbase;
   return traffic;
 }
 

@@ -52,13 +52,14 @@ void AffineNmpcProblem::SetBounds() {
     bounds.hi[Index(at)] = hi;
   };
   constexpr double kBack = 0.99;  // share of the rate
+  const Input u_min = LeastInput(settings_, grip_), u_max = MostInput(settings_, grip_);
   for (int i = 0; i < horizon(); ++i) {
     for (int j = 0; j < kInputs; ++j) {
       const double step = settings_.rate_max[j];
       // An out-of-range input returns almost as fast as allowed: an interior-point method needs an interior.
       const double back = kBack * (i + 1) * step;
-      bound(variable_bounds_, InputAt(i) + j, std::min(settings_.u_min[j], u_previous_[j] + back),
-            std::max(settings_.u_max[j], u_previous_[j] - back));
+      bound(variable_bounds_, InputAt(i) + j, std::min(u_min[j], u_previous_[j] + back),
+            std::max(u_max[j], u_previous_[j] - back));
       bound(row_bounds_, RowAt(i) + kStates + j, -step, step);
     }
     for (int soft = 0; soft < SoftRows(i + 1); ++soft) {

@@ -2,7 +2,6 @@
 // a bend d''(s) that is constant between stations.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "control/road/stations.hpp"
@@ -25,8 +24,7 @@ struct LateralPath {
   // Constant beyond the last station.
   [[nodiscard]] LateralPoint At(double s) const {
     if (!exists) return {};
-    const double place = std::max((s - stations.s_0) / stations.spacing, 0.0);
-    const auto j = std::min(static_cast<std::size_t>(place), kStations - 1);
+    const std::size_t j = stations.PlaceOf(s).j;
     if (j == kStations - 1) return {.offset = offset[j]};
     const double ds = s - stations.At(j);
     return {.offset = offset[j] + ds * (slope[j] + 0.5 * ds * bend[j]),

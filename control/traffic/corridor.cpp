@@ -39,7 +39,7 @@ struct Encounter {
 Encounter EncounterWith(const RoadObject& object, const Stations& stations, const SpeedPlan& speeds,
                         std::size_t j, const WayTerms& terms, bool kept) {
   const bool ahead = object.MovesAhead() && object.s > stations.s_0;
-  const double spare = kept || ahead || !object.Moves() ? 0.0 : terms.spare;
+  const double spare = kept || ahead || !object.Moves() ? 0.0 : (object.yielded_to ? 2.0 : 1.0) * terms.spare;
   const double from = object.Since(std::max(speeds.t[j - 1] - spare, 0.0));
   const double to = std::max(speeds.t[j], terms.waits) + spare;
   return {.from = from,
@@ -83,8 +83,8 @@ std::span<const std::size_t> Corridor::Beside(const Stations& stations, std::spa
 }
 
 // The road's bounds where they are narrowest between the vehicle's ends and on the way since the last station.
-RoadBounds Corridor::NarrowestAt(double s, double spacing) const {
-  const double from = s - std::max(settings_.footprint.rear, spacing), to = s + settings_.footprint.front;
+RoadBounds Corridor::NarrowestAt(double s, double step) const {
+  const double from = s - std::max(settings_.footprint.rear, step), to = s + settings_.footprint.front;
   constexpr int kSamples = 5;
   RoadBounds narrowest = profile_->RoadAt(from);
   for (int k = 1; k < kSamples; ++k) {
@@ -123,7 +123,7 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
       LeaveLane(kept[k], vehicle, stations.At(j) - stations.s_0, speeds.t[j], half_width, covered);
     covered_[count++] = covered;
   }
-  const RoadBounds road = NarrowestAt(stations.At(j), stations.spacing);
+  const RoadBounds road = NarrowestAt(stations.At(j), stations.Step(j - 1));
   const double edge = terms.squeeze ? 0.0 : std::min(0.05, settings_.road_margin);
   const Covered outside{
       .right = road.left,
@@ -136,7 +136,7 @@ void Corridor::FindGaps(const Stations& stations, const RoadPosition& vehicle,
 void Corridor::Reach(std::size_t j, const Stations& stations, const RoadPosition& vehicle,
                      std::span<const RoadObject> objects, std::span<const Side> kept,
                      const SpeedPlan& speeds) {
-  const double ds = stations.spacing, dt = std::max(speeds.t[j] - speeds.t[j - 1], 1e-3);
+  const double ds = stations.Step(j - 1), dt = std::max(speeds.t[j] - speeds.t[j - 1], 1e-3);
   const auto gaps = gaps_[j].gaps();
   const int most = static_cast<int>(std::floor(kSteepest * ds / step_)) + 1;
   std::size_t gap = 0;
@@ -150,7 +150,7 @@ void Corridor::Reach(std::size_t j, const Stations& stations, const RoadPosition
     double own = dt * kOffCentre * lateral * lateral + std::max(ds / gaps[gap].speed - dt, 0.0);
     // Near the vehicle, a way is limited by what the tyres can do: a lateral move of y within t takes 4 y/t².
     const double t = std::max(speeds.t[j], 0.1);
-    const double move = std::abs(lateral - vehicle.lateral - vehicle.slope * ds * static_cast<double>(j));
+    const double move = std::abs(lateral - vehicle.lateral - vehicle.slope * (stations.At(j) - stations.s_0));
     own += kBeyondGrip * std::max(4.0 * move / (t * t) / settings_.grip - 1.0, 0.0) * dt;
     for (std::size_t k = 0; k < objects.size(); ++k) {
       if (!met_[k] || kept[k] == Side::kNone) continue;

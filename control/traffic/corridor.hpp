@@ -81,7 +81,7 @@ class Corridor {
     short gap = -1;        // none: blocked
   };
 
-  [[nodiscard]] RoadBounds NarrowestAt(double s, double spacing) const;
+  [[nodiscard]] RoadBounds NarrowestAt(double s, double step) const;
   void FindGaps(const Stations& stations, const RoadPosition& vehicle, std::span<const RoadObject> objects,
                 std::span<const Side> kept, const SpeedPlan& speeds, std::size_t j, const WayTerms& terms);
   void Reach(std::size_t j, const Stations& stations, const RoadPosition& vehicle,

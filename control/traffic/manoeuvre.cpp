@@ -7,20 +7,14 @@
 namespace control {
 
 double Manoeuvre::SpeedLimitAt(double s) const {
-  const double place = (s - path.stations.s_0) / path.stations.spacing;
-  if (!path.exists || place >= static_cast<double>(kStations - 1))
-    return std::numeric_limits<double>::infinity();
-  if (place <= 0.0) return speed_limit[0];
-  const auto j = static_cast<std::size_t>(place);
-  const double fraction = place - static_cast<double>(j);
+  const auto [j, fraction] = path.stations.PlaceOf(s);
+  if (!path.exists || j == kStations - 1) return std::numeric_limits<double>::infinity();
   const double from = speed_limit[j], to = speed_limit[j + 1];
   return std::sqrt(from * from + fraction * (to * to - from * from));
 }
 
 double Manoeuvre::LeastAround(const StationValues& values, double s) const {
-  const double place =
-      std::clamp((s - path.stations.s_0) / path.stations.spacing, 0.0, static_cast<double>(kStations - 1));
-  const auto j = static_cast<std::size_t>(place);
+  const std::size_t j = path.stations.PlaceOf(s).j;
   return std::min(values[j], values[std::min(j + 1, kStations - 1)]);
 }
 

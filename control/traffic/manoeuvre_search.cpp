@@ -10,6 +10,7 @@ namespace {
 constexpr double kShortest = 40.0;    // least length of road that is planned for [m]
 constexpr double kSameTimes = 0.3;    // difference of arrival times that does not matter [s]
 constexpr double kSlowest = 1.0;      // speed that the road allows, where costs are compared, at least [m/s]
+constexpr double kWidest = 1.08;      // spacing of the stations at most, as a share of the one that is needed
 constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
 
 }  // namespace
@@ -39,9 +40,12 @@ void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosit
 void ManoeuvreSearch::Measure() {
   const double accelerated = vehicle_.speed + 0.5 * limits_.acceleration * settings_.horizon;
   const double fastest = std::max(std::min(accelerated, profile_->At(vehicle_.s).speed), vehicle_.speed);
-  stations_ = {
-      .s_0 = vehicle_.s,
-      .spacing = std::max(fastest * settings_.horizon, kShortest) / static_cast<double>(kStations - 1)};
+  // The first point may be as near as half of the spacing, which is kept as long as it fits.
+  const double least =
+      std::max(fastest * settings_.horizon, kShortest) / (static_cast<double>(kStations) - 1.5);
+  const double spacing = stations_.spacing;
+  const bool fits = spacing >= least && spacing <= kWidest * least;
+  stations_ = Stations::OnGrid(vehicle_.s, fits ? spacing : 0.5 * (1.0 + kWidest) * least);
   for (std::size_t j = 0; j < kStations; ++j) {
     const RoutePoint point = profile_->At(stations_.At(j));
     road_speed_[j] = point.speed;
@@ -87,7 +91,7 @@ bool ManoeuvreSearch::CanStop(const Candidate& candidate) const {
 // Time from station j to the last one at the road's speed [s].
 double ManoeuvreSearch::TimeFrom(std::size_t j) const {
   double time = 0.0;
-  for (++j; j < kStations; ++j) time += stations_.spacing / std::max(road_speed_[j], kSlowest);
+  for (++j; j < kStations; ++j) time += stations_.Step(j - 1) / std::max(road_speed_[j], kSlowest);
   return time;
 }
 
@@ -105,7 +109,8 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, const WayTerms& terms
   candidate.path = {};
   KeepAbleToStop(candidate);
   candidate.speeds = plan_speeds(candidate.speed_limit);
-  for (int round = 0; round < 2; ++round) {
+  constexpr int kUsualRounds = 2, kMostRounds = 3;
+  for (int round = 0; round < kMostRounds; ++round) {
     corridor_.Find(stations_, vehicle_, objects, kept, candidate.speeds, terms, candidate.way);
     const bool blocked = candidate.way.reached < candidate.speeds.count;
     if (blocked) {
@@ -124,7 +129,9 @@ void ManoeuvreSearch::Evaluate(std::span<const Side> kept, const WayTerms& terms
     for (std::size_t j = 0; j < std::min(before.count, candidate.speeds.count); ++j) {
       later = std::max(later, std::abs(candidate.speeds.t[j] - before.t[j]));
     }
-    if (later < kSameTimes) break;
+    // Another way is searched for if the vehicle would get farther than this one leads.
+    const bool searched = candidate.speeds.count <= candidate.way.reached;
+    if (searched && (later < kSameTimes || round + 1 == kUsualRounds)) break;
   }
   candidate.blocker = Touched(candidate);
   if (candidate.blocker) {
@@ -144,11 +151,16 @@ void ManoeuvreSearch::LimitSpeed(Candidate& candidate) const {
     const double curvature = std::abs(curvature_[j] / stretch + candidate.path.bend[j]);
     if (curvature > std::abs(curvature_[j]))
       limit = std::min(limit, std::sqrt(grip / std::max(curvature, 1e-6)));
+    if (j > 1) {
+      // From one bend to the next, the wheels are turned within a spacing.
+      const double change = std::abs(candidate.path.bend[j] - candidate.path.bend[j - 1]);
+      limit = std::min(limit, settings_.curvature_rate * stations_.spacing / std::max(change, 1e-6));
+    }
     if (j > 0 && j < candidate.way.reached) limit = std::min(limit, candidate.way.gap[j].speed);
     candidate.speed_limit[j] = limit;
   }
   KeepAbleToStop(candidate);
-  LimitInTime(candidate.speed_limit, stations_.spacing, limits_.deceleration);
+  LimitInTime(stations_, candidate.speed_limit, limits_.deceleration);
 }
 
 // The vehicle must be able to stop in case another does: behind an object that moves ahead, until it has had time to leave the
@@ -199,7 +211,7 @@ std::optional<std::size_t> ManoeuvreSearch::Touched(const Candidate& candidate) 
       if (touches(o, stations_.s_0, 0.0)) continue;
       for (int part = 1; part <= kParts; ++part) {
         const double share = static_cast<double>(part) / kParts;
-        if (touches(o, stations_.At(j - 1) + share * stations_.spacing,
+        if (touches(o, stations_.At(j - 1) + share * stations_.Step(j - 1),
                     std::lerp(speeds.t[j - 1], speeds.t[j], share))) {
           return k;
         }
@@ -276,7 +288,7 @@ Reason ManoeuvreSearch::Obstruction(std::span<const Side> kept, const WayTerms& 
 }
 
 void ManoeuvreSearch::AddStop(std::optional<std::size_t> object, Candidate& candidate) const {
-  StopLine line{.s = stations_.At(candidate.way.reached) - stations_.spacing - settings_.footprint.front};
+  StopLine line{.s = stations_.At(candidate.way.reached - 1) - settings_.footprint.front};
   if (object) {
     const RoadObject& o = objects_.objects()[*object];
     const double front = o.s - o.half_length - settings_.footprint.front - settings_.stop_gap;

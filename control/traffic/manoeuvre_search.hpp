@@ -47,9 +47,14 @@ class ManoeuvreSearch {
   // `profile` must outlive this object.
   ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile);
 
+  // Forgets where the stations were.
+  void Reset() { stations_ = {}; }
   // Sets the place of the vehicle and selects the objects; must precede the searches. `start`: where paths begin. None of
   // the functions allocates.
   void Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle, const LateralPoint& start);
+
+  // The vehicle yields to object k so far, so that only a way with twice the time to spare goes first.
+  void YieldTo(std::size_t k) { objects_.YieldTo(k); }
 
   // Searches past the objects. `kept`: the previous side of each object.
   // `decided`: for how long this has been decided [s]; the longer, the sooner must the vehicle leave the lane of an object

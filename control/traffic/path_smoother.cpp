@@ -27,7 +27,6 @@ Interval Bounds(const Way& way, std::size_t j) {
 
 bool PathSmoother::Smooth(const Stations& stations, const LateralPoint& start, const Way& way,
                           const SpeedPlan& speeds, const StationValues& curvature, LateralPath& path) {
-  const double ds = stations.spacing;
   qp_.x0 << start.offset, start.slope;
   double speed = std::max(speeds.v[0], 1.0);
   for (std::size_t j = 0; j < kStations; ++j) {
@@ -35,7 +34,7 @@ bool PathSmoother::Smooth(const Stations& stations, const LateralPoint& start, c
     stage.ClearRows();
     const bool reached = j < speeds.count;
     if (reached) speed = std::max(speeds.v[j], 1.0);
-    const double dt = ds / speed;
+    const double ds = stations.Step(j), dt = ds / speed;
     stage.Q << 2.0 * dt, 2.0 * dt * settings_.heading_weight;
     if (j > 0 && j < way.reached) {
       const auto [lo, hi] = Bounds(way, j);

@@ -1,7 +1,7 @@
 // The smoothest path through the gaps of a way: a quadratic program over the stations,
 //
 //   min   Σ Δt_j (d_j² + w_ψ d'_j² + w_ω (υ_j d''_j)²)
-//   s.t.  d_{j+1} = d_j + Δs d'_j + ½ Δs² d''_j,   d'_{j+1} = d'_j + Δs d''_j
+//   s.t.  d_{j+1} = d_j + Δs_j d'_j + ½ Δs_j² d''_j,   d'_{j+1} = d'_j + Δs_j d''_j
 //         lo_j ≤ d_j ≤ hi_j  (soft),   |κ_j + d''_j| ≤ κ_max
 //
 // with the weights of the controller that follows the path, so that it has little to correct.

@@ -25,6 +25,7 @@ struct RoadObject {
   double half_length = 0.0;  // along the road [m]
   double half_width = 0.0;   // across the road [m]
   bool crosses = false;      // moves across the road rather than along it
+  bool yielded_to = false;   // the vehicle has decided to let it go first
   PassingSide side = PassingSide::kUnknown;
   ObstacleClass object_class = ObstacleClass::kUnknown;
 

@@ -34,6 +34,8 @@ class RoadObjects {
   // Selects the objects that matter to a vehicle that covers at most `distance` [m] of the road within the horizon.
   // Does not allocate.
   void Select(std::span<const Obstacle> obstacles, const RoadPosition& vehicle, double distance);
+  // The vehicle yields to object k. Holds until the next selection.
+  void YieldTo(std::size_t k) { objects_[k].yielded_to = true; }
 
   // By increasing distance along the road; valid until the next call.
   [[nodiscard]] std::span<const RoadObject> objects() const { return objects_; }

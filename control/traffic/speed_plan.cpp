@@ -25,22 +25,22 @@ double SpeedBefore(std::span<const StopLine> stops, double s, double t, double d
   return speed;
 }
 
-void LimitInTime(StationValues& limit, double spacing, double deceleration) {
+void LimitInTime(const Stations& stations, StationValues& limit, double deceleration) {
   for (std::size_t j = kStations - 1; j-- > 0;) {
-    limit[j] = std::min(limit[j], std::sqrt(limit[j + 1] * limit[j + 1] + 2.0 * deceleration * spacing));
+    limit[j] =
+        std::min(limit[j], std::sqrt(limit[j + 1] * limit[j + 1] + 2.0 * deceleration * stations.Step(j)));
   }
 }
 
 SpeedPlan PlanSpeed(const Stations& stations, const StationValues& allowed, std::span<const StopLine> stops,
                     double speed, const SpeedLimits& limits, double time) {
-  const double ds = stations.spacing;
   StationValues limit = allowed;
-  LimitInTime(limit, ds, limits.deceleration);
+  LimitInTime(stations, limit, limits.deceleration);
   SpeedPlan plan;
   plan.v[0] = std::max(speed, 0.0);
   plan.count = 1;
   for (std::size_t j = 0; j + 1 < kStations; ++j) {
-    const double v = plan.v[j];
+    const double v = plan.v[j], ds = stations.Step(j);
     const double guess = plan.t[j] + ds / std::max(v, 1.0);
     const double wanted = std::min(limit[j + 1], SpeedBefore(stops, stations.At(j + 1), guess,
                                                              limits.deceleration, HardDeceleration(limits)));

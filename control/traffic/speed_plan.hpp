@@ -37,7 +37,7 @@ struct SpeedPlan {
 }
 
 // Lowers the limits so that braking at `deceleration` [m/s²] meets each of them in time. [m/s]
-void LimitInTime(StationValues& limit, double spacing, double deceleration);
+void LimitInTime(const Stations& stations, StationValues& limit, double deceleration);
 
 // `allowed`: speed limit at each station [m/s]. `speed`: present speed [m/s]. Stations later than `time` [s] are not
 // reached.

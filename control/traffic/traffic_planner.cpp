@@ -19,8 +19,10 @@ TrafficPlanner::TrafficPlanner(const TrafficSettings& settings, const RoadProfil
     : settings_(settings), search_(settings, profile) {}
 
 void TrafficPlanner::Reset() {
+  search_.Reset();
   kept_by_id_.fill(Side::kNone);
   stays_behind_ = false;
+  yields_to_ = -1;
   open_cycles_ = late_cycles_ = 0;
   manoeuvre_ = {};
 }
@@ -40,7 +42,9 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
   search_.Begin(obstacles, vehicle, Start(vehicle));
   const auto objects = search_.objects().objects();
   for (std::size_t k = 0; k < objects.size(); ++k) {
-    kept_[k] = Kept(obstacles[objects[k].index]);
+    const Obstacle& obstacle = obstacles[objects[k].index];
+    kept_[k] = Kept(obstacle);
+    if (obstacle.id == yields_to_ && objects[k].crosses) search_.YieldTo(k);
   }
   const double decided = stays_behind_ ? 0.0 : settings_.t_s * open_cycles_;
   search_.Go(kept_, Caution::kUsual, decided, go_);
@@ -60,7 +64,9 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     behind_.way.reached = go_.way.reached;
     search_.StayBehind(ahead, kept_, behind_);
     if (go_.possible && behind_.possible) {
-      stay = ahead && behind_.cost < go_.cost + (stays_behind_ ? kHysteresis : -kHysteresis);
+      // Waiting behind what stands would never end.
+      stay = ahead && objects[*ahead].Moves() &&
+             behind_.cost < go_.cost + (stays_behind_ ? kHysteresis : -kHysteresis);
       if (compare || stay) reason = stay ? Reason::kPassingGainsLittle : Reason::kStayingCosts;
     } else if (go_.possible && compare) {
       reason = Reason::kCannotStay;
@@ -98,6 +104,7 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     stay = !go_.possible;
   }
   stays_behind_ = stay;
+  yields_to_ = manoeuvre_.decision == Decision::kYield ? manoeuvre_.object : -1;
   return manoeuvre_;
 }
 

@@ -14,6 +14,7 @@ struct TrafficSettings {
   double t_s = 0.05;             // time between two plans [s]
   double headway = 1.0;          // additional gap to an object that moves ahead, in time [s]
   double grip = 5.0;             // acceleration that the tyres can provide [m/s²]
+  double curvature_rate = 0.2;   // at which the steering can change the path's curvature [1/(m s)]
   double horizon = 8.0;          // [s]
   PathSmootherSettings path;
 };

@@ -94,6 +94,24 @@ TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessAcross) {
   }
 }
 
+TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessWhenBraking) {
+  LpvAffineSettings settings;
+  settings.mu = 0.3;
+  RoadLoop loop(StraightRoad(300.0, 12.0), settings);
+  loop.PlaceAt(0.0, 12.0);
+  loop.obstacles() = {loop.ObstacleAt(36.0, 0.0, 6.0)};
+  const double grip = settings.friction_share * settings.mu * 9.81;
+  double hardest = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    const Plan& plan = loop.Ask();
+    ASSERT_EQ(plan.status, SolverStatus::kSolved);
+    for (const Input& u : plan.u) hardest = std::max(hardest, -u[kAcceleration]);
+    loop.Drive(plan);
+  }
+  EXPECT_LT(hardest, grip + 1e-4);
+  EXPECT_GT(hardest, 0.9 * grip) << "the road is blocked 30 m ahead";
+}
+
 TEST(LpvAffinePlan, InputThatIsOutOfRangeComesBackAsFastAsItMay) {
   for (const Input& out : {Input(0.62, 0.0), Input(-0.62, 0.0), Input(0.0, -8.5), Input(0.0, 4.2)}) {
     RoadLoop loop(StraightRoad(200.0, 6.0));
