@@ -38,12 +38,11 @@ struct Stations {
   [[nodiscard]] double length() const { return At(kStations - 1) - s_0; }
   // Places before the first and behind the last station are taken to be there.
   [[nodiscard]] Place PlaceOf(double s) const {
-    const double from_0 = (s - s_0) / Step(0);
-    if (from_0 < 1.0) return {.fraction = std::max(from_0, 0.0)};
     const double place = (s - s_0 - shift) / spacing;
+    if (place < 1.0) return {.fraction = std::max((s - s_0) / Step(0), 0.0)};
     if (place >= static_cast<double>(kStations - 1)) return {.j = kStations - 1};
-    const auto j = std::max(static_cast<std::size_t>(place), std::size_t{1});
-    return {.j = j, .fraction = std::max(place - static_cast<double>(j), 0.0)};
+    const auto j = static_cast<std::size_t>(place);
+    return {.j = j, .fraction = place - static_cast<double>(j)};
   }
 };
 

@@ -40,7 +40,8 @@ struct WayTerms {
   // behind it any more; never: it keeps its distance anyway [s].
   double leaves = kNever;
   // Time by which objects may be earlier or later that come towards the vehicle, cross or overtake it, and that the previous
-  // way did not count with: a gap that is only just long enough would be taken and given up by turns [s].
+  // way did not count with: a gap that is only just long enough would be taken and given up by turns. Twice this for an
+  // object that the vehicle yields to [s].
   double spare = 0.0;
 };
 

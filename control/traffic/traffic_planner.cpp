@@ -22,7 +22,6 @@ void TrafficPlanner::Reset() {
   search_.Reset();
   kept_by_id_.fill(Side::kNone);
   stays_behind_ = false;
-  yields_to_ = -1;
   open_cycles_ = late_cycles_ = 0;
   manoeuvre_ = {};
 }
@@ -41,10 +40,11 @@ LateralPoint TrafficPlanner::Start(const RoadPosition& vehicle) const {
 const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const RoadPosition& vehicle) {
   search_.Begin(obstacles, vehicle, Start(vehicle));
   const auto objects = search_.objects().objects();
+  const bool yielded = manoeuvre_.decision == Decision::kYield;
   for (std::size_t k = 0; k < objects.size(); ++k) {
     const Obstacle& obstacle = obstacles[objects[k].index];
     kept_[k] = Kept(obstacle);
-    if (obstacle.id == yields_to_ && objects[k].crosses) search_.YieldTo(k);
+    if (yielded && obstacle.id == manoeuvre_.object && objects[k].crosses) search_.YieldTo(k);
   }
   const double decided = stays_behind_ ? 0.0 : settings_.t_s * open_cycles_;
   search_.Go(kept_, Caution::kUsual, decided, go_);
@@ -104,7 +104,6 @@ const Manoeuvre& TrafficPlanner::Plan(std::span<const Obstacle> obstacles, const
     stay = !go_.possible;
   }
   stays_behind_ = stay;
-  yields_to_ = manoeuvre_.decision == Decision::kYield ? manoeuvre_.object : -1;
   return manoeuvre_;
 }
 

@@ -47,7 +47,6 @@ class TrafficPlanner {
   std::array<Side, RoadObjects::kMost> kept_{};
   Candidate go_, behind_;
   bool stays_behind_ = false;
-  int yields_to_ = -1;   // id of the object that crosses first; −1: none
   int open_cycles_ = 0;  // consecutive cycles in which it could have gone
   int late_cycles_ = 0;  // consecutive cycles in which going was found to be late
   Manoeuvre manoeuvre_;

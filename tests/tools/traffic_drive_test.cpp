@@ -1,24 +1,25 @@
 // What the controller decides about other things on the road, in closed loop over the bus: drives of the catalogue, made
 // harder where its scenario is the mildest of its kind.
-#include <algorithm>
-#include <cmath>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <optional>
 #include <string>
 
 #include "bus/messages.hpp"
-#include "sim/virtual_vehicle.hpp"
+#include "loop/config.hpp"
+#include "sim/scenario.hpp"
 #include "tools/drive/closed_loop.hpp"
+#include "tools/drive/scenario_config.hpp"
 
 namespace {
 
 class TrafficDrive : public testing::Test {
  protected:
   void Load(const std::string& name) {
-    const std::filesystem::path folder =
-        std::filesystem::path(LPVMPC_SOURCE_DIR "/scenarios/catalogue") / name;
-    scenario_.emplace(sim::LoadScenario(folder / "scenario.toml"));
-    config_ = loop::LoadConfig(folder / "lpvmpcd.toml");
+    const std::filesystem::path file =
+        std::filesystem::path(LPVMPC_SOURCE_DIR "/scenarios/catalogue") / name / "scenario.toml";
+    scenario_.emplace(sim::LoadScenario(file));
+    config_ = tools::LoadConfigFor(*scenario_, file, {});
   }
   sim::Scenario& scenario() { return *scenario_; }
   loop::Config& config() { return config_; }
