@@ -45,7 +45,8 @@ bus::FaultCode Refusal(const control::Plan& plan, int horizon) {
 CheckVerdict CheckPlan(control::PlanCheck& check, const control::Plan& plan, const Present& present) {
   const auto violation = check.Validate(plan.u);
   const control::StopVerdict behind = check.FindStop(plan.beyond);
-  CheckVerdict verdict{.violation = violation ? violation : behind.violation, .ruled_out = false};
+  CheckVerdict verdict{
+      .violation = violation ? violation : behind.violation, .ruled_out = false, .stop_lasts = behind.lasts};
   if (!verdict.violation) return verdict;
   if (violation) {
     const auto of_last = check.Validate(present.plan);

@@ -36,6 +36,7 @@ struct Present {
 struct CheckVerdict {
   std::optional<control::ConstraintViolation> violation;
   bool ruled_out = false;
+  bool stop_lasts = false;  // behind the plan, there is still a stop half a second later
 };
 [[nodiscard]] CheckVerdict CheckPlan(control::PlanCheck& check, const control::Plan& plan,
                                      const Present& present);

@@ -63,6 +63,7 @@ Outcome Planner::Plan(PlanRequest request, const Snapshot& known, const control:
                                            .obstacles = prediction.obstacles,
                                            .disturbance = disturbance(),
                                            .mu_limit = mu_limit(),
+                                           .slow_down = slow_down_,
                                            .time_left = &time_left_});
     outcome.relaxation = Unmet(*outcome.solution);
   }
@@ -116,14 +117,17 @@ std::optional<control::ConstraintViolation> Planner::Unmet(const control::Plan& 
 void Planner::Accept(const Snapshot& known, const control::RoutePlace& place, const Present& present,
                      Outcome& outcome) {
   const control::Plan& plan = *outcome.solution;
+  bool stop_lasts = true;
   bus::FaultCode refusal =
       outcome.late ? bus::FaultCode::kDeadlineMissed : Refusal(plan, controller_->horizon());
   if (refusal == bus::FaultCode::kNone && check_ != nullptr) {
     const CheckVerdict verdict = CheckPlan(*check_, plan, present);
     outcome.rejection = verdict.violation;
+    stop_lasts = verdict.stop_lasts;
     if (verdict.ruled_out) refusal = bus::FaultCode::kPlanRejected;
   }
   outcome.accepted = refusal == bus::FaultCode::kNone;
+  slow_down_ = !stop_lasts;
   if (outcome.accepted) {
     active_.Set(plan, known.step);
     stop_path_.Follow(plan.z, place.s, plan.beyond);

@@ -128,6 +128,7 @@ class Planner {
   std::int64_t estimated_step_ = 0;  // step of the last state that the estimator took
   ActivePlan active_;
   control::StopPath stop_path_;  // along the last accepted plan
+  bool slow_down_ = false;       // the stop behind the last plan must begin within half a second
   std::uint64_t refused_ = 0;
   bus::FaultCode last_refusal_ = bus::FaultCode::kNone;
 

@@ -25,6 +25,7 @@ struct ControllerInput {
   std::span<const Obstacle> obstacles;
   Disturbance disturbance = {};  // taken to last; the paper's controllers ignore it
   double mu_limit = kNoLimit;    // second bound of the friction coefficient; ignored likewise
+  bool slow_down = false;  // the vehicle should brake comfortably, unless it overtakes; ignored likewise
   // Called before and within each iteration that could improve the plan but is not required. False ends that iteration
   // and keeps the plan before it. Null: time is unlimited.
   const TimeLeft* time_left = nullptr;

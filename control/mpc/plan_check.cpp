@@ -110,6 +110,7 @@ std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u)
 }
 
 StopVerdict PlanCheck::FindStop(const LateralPath& beyond) {
+  constexpr double kLasts = 0.5;  // [s]
   const std::size_t steps = accelerations_.size();
   path_.Follow(predicted_, s_, beyond);
   StopVerdict verdict;
@@ -117,24 +118,41 @@ StopVerdict PlanCheck::FindStop(const LateralPath& beyond) {
   double s = s_;
   for (const std::size_t after : {std::size_t{1}, steps / 2, steps}) {
     if (after > steps || after <= checked) continue;
-    for (; checked < after; ++checked) {
-      const State& z = predicted_[checked + 1];
-      s = profile_->Project(Position(z), s).s;
-      if (const auto contact = Contact(z, s, static_cast<double>(checked + 1) * settings_.t_s)) {
-        if (!verdict.violation) verdict.violation = contact;
-        return verdict;
-      }
+    std::optional<ConstraintViolation> contact;
+    if (!ClearUntil(after, checked, s, contact)) {
+      if (!verdict.violation) verdict.violation = contact;
+      return verdict;
     }
-    const State& z = predicted_[after];
-    const Braking from{.distance = path_.DistanceOf(Position(z), s),
-                       .speed = z[kUpsilon],
-                       .acceleration = accelerations_[after - 1],
-                       .time = static_cast<double>(after) * settings_.t_s};
-    const StopVerdict stop = Mildest(path_, from, kReserve);
-    if (stop.deceleration) return stop;
+    StopVerdict stop = StopAfter(after, s);
+    if (stop.deceleration) {
+      const std::size_t later = std::min(1 + static_cast<std::size_t>(kLasts / settings_.t_s), steps);
+      stop.lasts = after > 1 || (ClearUntil(later, checked, s, contact) && StopAfter(later, s).deceleration);
+      return stop;
+    }
     if (after == 1) verdict = stop;
   }
   return verdict;
+}
+
+bool PlanCheck::ClearUntil(std::size_t after, std::size_t& checked, double& s,
+                           std::optional<ConstraintViolation>& contact) const {
+  for (; checked < after; ++checked) {
+    const State& z = predicted_[checked + 1];
+    s = profile_->Project(Position(z), s).s;
+    contact = Contact(z, s, static_cast<double>(checked + 1) * settings_.t_s);
+    if (contact) return false;
+  }
+  return true;
+}
+
+StopVerdict PlanCheck::StopAfter(std::size_t after, double s) const {
+  const State& z = predicted_[after];
+  return Mildest(path_,
+                 {.distance = path_.DistanceOf(Position(z), s),
+                  .speed = z[kUpsilon],
+                  .acceleration = accelerations_[after - 1],
+                  .time = static_cast<double>(after) * settings_.t_s},
+                 kReserve);
 }
 
 StopVerdict PlanCheck::FindStop(const StopPath& path, double acceleration) const {

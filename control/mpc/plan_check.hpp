@@ -35,6 +35,7 @@ struct PlanCheckSettings {
 
 struct StopVerdict {
   std::optional<double> deceleration;            // of the stop [m/s²]; none if no stop is clear
+  bool lasts = false;                            // a stop that begins 0.5 s later is clear, too
   std::optional<ConstraintViolation> violation;  // then what stands in the way of the hardest
 };
 
@@ -80,6 +81,12 @@ class PlanCheck {
   // The step that ends `time` [s] from now.
   [[nodiscard]] int StepAt(double time) const;
   [[nodiscard]] std::optional<ConstraintViolation> Contact(const State& z, double s, double time) const;
+  // True if the vehicle can touch nothing until `after` steps of the plan, of which `checked` have been; updates `checked`
+  // and s, its place there.
+  [[nodiscard]] bool ClearUntil(std::size_t after, std::size_t& checked, double& s,
+                                std::optional<ConstraintViolation>& contact) const;
+  // The mildest stop that begins after this number of steps of the plan, at arc length s.
+  [[nodiscard]] StopVerdict StopAfter(std::size_t after, double s) const;
   [[nodiscard]] StopVerdict Mildest(const StopPath& path, const Braking& from, double reserve) const;
   [[nodiscard]] std::optional<ConstraintViolation> Brake(const StopPath& path, Braking from,
                                                          double deceleration, double reserve) const;

@@ -43,6 +43,14 @@ double Clearance(const HalfSpace& outside, const State& z, const std::array<Vect
   return least;
 }
 
+// True if it passes one that moves ahead: slower, it would be beside it for longer.
+bool Overtakes(const Manoeuvre& manoeuvre) {
+  for (std::size_t k = 0; k < manoeuvre.objects.size(); ++k) {
+    if (manoeuvre.side[k] != Side::kNone && manoeuvre.objects[k].MovesAhead()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
@@ -65,7 +73,7 @@ void TrackingProblem::Reset() {
 }
 
 void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> obstacles,
-                            const Disturbance& disturbance) {
+                            const Disturbance& disturbance, bool slow_down) {
   constexpr double kStandstill = 0.15;    // [m/s]
   constexpr double kLeastDistance = 0.3;  // [m]
   obstacles_ = obstacles;
@@ -78,7 +86,8 @@ void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> 
     first_s = manoeuvre_->stop_lines[k].s;
     first_stop_ = manoeuvre_->stop_objects[k];
   }
-  progress_.Fill(place_.s, z_[kUpsilon], *manoeuvre_, z_ref_, u_ref_, s_ref_, disturbance);
+  progress_.Fill(place_.s, z_[kUpsilon], *manoeuvre_, z_ref_, u_ref_, s_ref_, disturbance,
+                 slow_down && !Overtakes(*manoeuvre_));
   const bool nowhere_to_go =
       s_ref_.back() - s_ref_.front() < kLeastDistance && first_s - place_.s < kLeastDistance;
   waiting_ = nowhere_to_go && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;

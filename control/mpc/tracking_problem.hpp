@@ -43,7 +43,7 @@ class TrackingProblem {
 
   // `s`: where the search for the vehicle's place on the road begins [m].
   void Begin(const State& z, double s, std::span<const Obstacle> obstacles,
-             const Disturbance& disturbance = {});
+             const Disturbance& disturbance = {}, bool slow_down = false);
   void BuildConstraints(std::span<const State> z_hat);
   // Forgets all decisions.
   void Reset();

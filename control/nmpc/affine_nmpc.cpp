@@ -39,7 +39,7 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
     prediction_.Shift();
     return plan_;
   }
-  tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance);
+  tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance, input.slow_down);
   plan_.manoeuvre = tracking_.manoeuvre_status();
   if (tracking_.waiting()) {
     tracking_.Hold(input.u_previous, plan_.z, plan_.u);

@@ -45,11 +45,12 @@ double ProgressReference::Deceleration(double s, double upsilon, const Manoeuvre
 }
 
 void ProgressReference::Fill(double s_0, double upsilon, const Manoeuvre& manoeuvre, std::span<State> z,
-                             std::span<Input> u, std::span<double> s, const Disturbance& disturbance) const {
+                             std::span<Input> u, std::span<double> s, const Disturbance& disturbance,
+                             bool slow_down) const {
   const VehicleParameters vehicle = Disturbed(vehicle_, disturbance);
   const double slip = SideslipPerAcceleration(vehicle) * disturbance.a_y;
   const double steering = -UndersteerGradient(vehicle) * disturbance.a_y - disturbance.delta_0;
-  const double up = limits_.acceleration * t_s_;
+  const double up = (slow_down ? -limits_.deceleration : limits_.acceleration) * t_s_;
   const double down = Deceleration(s_0, upsilon, manoeuvre) * t_s_;
 
   double place = s_0;
@@ -69,8 +70,8 @@ void ProgressReference::Fill(double s_0, double upsilon, const Manoeuvre& manoeu
     if (i == u.size()) break;
     const double t = static_cast<double>(i + 1) * t_s_;
     const double along = cosine / stretch * t_s_;
-    const double next =
-        std::clamp(SpeedAt(place + speed * along, t, manoeuvre), std::max(speed - down, 0.0), speed + up);
+    const double next = std::clamp(SpeedAt(place + speed * along, t, manoeuvre), std::max(speed - down, 0.0),
+                                   std::max(speed + up, 0.0));
     u[i] << curvature * SteeringPerCurvature(vehicle, speed) + steering,
         (next - speed) / t_s_ - disturbance.a_x;
     place += 0.5 * (speed + next) * along;

@@ -30,7 +30,7 @@ class ProgressReference {
   // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
   // at the arc length s_0 and at about the speed `upsilon` [m/s].
   void Fill(double s_0, double upsilon, const Manoeuvre& manoeuvre, std::span<State> z, std::span<Input> u,
-            std::span<double> s, const Disturbance& disturbance = {}) const;
+            std::span<double> s, const Disturbance& disturbance = {}, bool slow_down = false) const;
 
  private:
   [[nodiscard]] double Deceleration(double s, double upsilon, const Manoeuvre& manoeuvre) const;

@@ -160,6 +160,22 @@ TEST_F(PlanCheckTest, DisturbanceMayDriveThePlanOffTheRoad) {
   EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, Constant(-0.03, 0.0), {}, offset));
 }
 
+// At 15 m/s the vehicle stops within 22 m; half a second are 7.5 m.
+TEST_F(PlanCheckTest, StopLastsIfItMayBeginHalfASecondLater) {
+  const auto stop_before = [&](double X) {
+    const std::array wall{Obstacle{.id = 1, .X = X + 1.0, .Y = 0.0, .r_x = 1.0, .r_y = 4.0}};
+    check_.Begin(At(20.0, 0.0), 20.0, wall);
+    static_cast<void>(check_.Validate(Constant(0.0, 0.0)));
+    return check_.FindStop();
+  };
+  EXPECT_FALSE(stop_before(40.0).deceleration);
+  const StopVerdict near = stop_before(48.5), far = stop_before(70.0);
+  EXPECT_TRUE(near.deceleration);
+  EXPECT_FALSE(near.lasts);
+  EXPECT_TRUE(far.deceleration);
+  EXPECT_TRUE(far.lasts);
+}
+
 TEST_F(PlanCheckTest, FrictionThatIsFeltToBeLessCounts) {
   const std::vector<Input> brake = Constant(0.0, -4.0);
   EXPECT_FALSE(Validate(At(20.0, 0.0), 20.0, brake, {}, {}, 0.8));

@@ -48,6 +48,19 @@ TEST(ProgressReference, UnderADisturbanceItsStatesAreSteadyTooAndRunAlongTheRoad
   }
 }
 
+TEST(ProgressReference, SlowsDownComfortablyIfAskedTo) {
+  const RoadProfile profile(testing::StraightRoad(400.0, 12.0), {}, {});
+  std::vector<State> z(161);
+  std::vector<Input> u(160);
+  std::vector<double> s(161);
+  const Manoeuvre manoeuvre;
+  ProgressReference({}, profile, kTs, 100.0).Fill(50.0, 12.0, manoeuvre, z, u, s, {}, true);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double t = static_cast<double>(i) * kTs;
+    EXPECT_NEAR(z[i][kUpsilon], std::max(12.0 - profile.limits().deceleration * t, 0.0), 1e-6);
+  }
+}
+
 TEST(ProgressReference, OnABendItsStatesAreThoseOfSteadyCornering) {
   const BlendedModel model{VehicleParameters{}};
   for (const double speed : {8.5, 12.0, 20.0}) {
