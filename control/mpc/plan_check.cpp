@@ -48,16 +48,32 @@ void PlanCheck::Reconfigure(double stop_deceleration) {
   settings_.stop_deceleration = stop_deceleration;
 }
 
-// The distance of the outermost corner beyond the road's edge [m]; negative if all corners are on it. Updates `s`.
+// The distance of the outermost corner beyond the road's edge [m], or a bound of it below 0; negative if all corners are on
+// the road. Updates `s`.
 double PlanCheck::OffRoad(const State& z, double& s) const {
-  s = profile_->Project(Position(z), s).s;
-  double out = -std::numeric_limits<double>::infinity();
+  const RouteProjection centre = profile_->Project(Position(z), s);
+  s = centre.s;
+  double out = MostOffRoad(z, centre);
+  if (out < 0.0) return out;
+  out = -std::numeric_limits<double>::infinity();
   for (const Vector2d& corner : settings_.footprint.Corners()) {
-    const RouteProjection place = profile_->Project(CornerAt(z, corner), s);
+    const RouteProjection place = profile_->Project(CornerAt(z, corner), s + corner.x());
     const RoadBounds road = profile_->RoadAt(place.s);
     out = std::max({out, place.lateral - road.left, road.right - place.lateral});
   }
   return out;
+}
+
+// An upper bound of that distance which is found without the corners' places on the road: no corner is farther across the
+// road than its own distance and that by which vehicle and road turn along the vehicle.
+double PlanCheck::MostOffRoad(const State& z, const RouteProjection& centre) const {
+  const double reach =
+      2.0 * settings_.footprint.Reach();  // in a bend, the road beside the vehicle is longer than it
+  const RoadBounds road = profile_->NarrowestRoad(centre.s - reach, centre.s + reach);
+  const double turned = std::abs(WrapAngle(z[kPsi] - profile_->At(centre.s).psi));
+  const double across = settings_.footprint.half_width +
+                        settings_.footprint.Reach() * (turned + profile_->TurnWithin(centre.s, reach));
+  return std::max(centre.lateral - road.left, road.right - centre.lateral) + across;
 }
 
 // The tyres need not give the acceleration a_y of bank and wind.
@@ -79,8 +95,12 @@ void PlanCheck::Begin(const State& z, double s, std::span<const Obstacle> obstac
   objects_.Select(obstacles, {.s = place.s, .lateral = place.lateral, .speed = z[kUpsilon]},
                   kLongest * std::max(z[kUpsilon], 0.0) + kReach);
   for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
-    const Obstacle& obstacle = obstacles_[objects_.objects()[k].index];
-    touched_[k] = Overlap(obstacle, settings_.footprint, z) > 0.0;
+    const RoadObject& object = objects_.objects()[k];
+    const Obstacle& obstacle = obstacles_[object.index];
+    reach_[k] = {.centre = {obstacle.X, obstacle.Y},
+                 .far = object.half_length + object.half_width + settings_.footprint.Reach(),
+                 .stands = obstacle.velocity_X == 0.0 && obstacle.velocity_Y == 0.0,
+                 .touched = Overlap(obstacle, settings_.footprint, z) > 0.0};
   }
 }
 
@@ -93,7 +113,10 @@ std::optional<ConstraintViolation> PlanCheck::Validate(std::span<const Input> u)
   for (std::size_t i = 0; i < std::min(u.size(), kMostSteps); ++i) {
     now = model_.Step(now, u[i]);
     const int step = static_cast<int>(i) + 1;
-    for (const RoadObject& object : objects_.objects()) {
+    for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
+      const Reach& reach = reach_[k];
+      if (reach.stands && (Position(now) - reach.centre).squaredNorm() > reach.far * reach.far) continue;
+      const RoadObject& object = objects_.objects()[k];
       const Obstacle& obstacle = obstacles_[object.index];
       const Obstacle then = Predict(obstacle, object, *profile_, step * settings_.t_s);
       const double overlap = Overlap(then, settings_.footprint, now);
@@ -176,17 +199,17 @@ int PlanCheck::StepAt(double time) const {
 
 // The first contact that is possible with a vehicle at `z`, beside the road's arc length s, `time` later.
 std::optional<ConstraintViolation> PlanCheck::Contact(const State& z, double s, double time) const {
-  const double reach = std::hypot(std::max(settings_.footprint.front, settings_.footprint.rear),
-                                  settings_.footprint.half_width);
   for (std::size_t k = 0; k < objects_.objects().size(); ++k) {
-    if (touched_[k]) continue;
+    const Reach& reach = reach_[k];
+    // Most things stand, far from the vehicle's way.
+    if (reach.stands && (Position(z) - reach.centre).squaredNorm() > reach.far * reach.far) continue;
+    if (reach.touched) continue;
     const RoadObject& object = objects_.objects()[k];
     const Obstacle& obstacle = obstacles_[object.index];
     const double after = TimeToNearest(obstacle, object, time, Position(z), s, s_);
-    const double far = object.half_length + object.half_width + reach;
-    if (!object.crosses && std::abs(object.SAt(after) - s) > far) continue;
+    if (!object.crosses && std::abs(object.SAt(after) - s) > reach.far) continue;
     const Obstacle then = Predict(obstacle, object, *profile_, after);
-    if ((Position(z) - Vector2d(then.X, then.Y)).squaredNorm() > far * far) continue;
+    if ((Position(z) - Vector2d(then.X, then.Y)).squaredNorm() > reach.far * reach.far) continue;
     const double overlap = Overlap(then, settings_.footprint, z);
     if (overlap > 0.0) return Violation(ConstraintKind::kObstacle, obstacle.id, StepAt(time), overlap);
   }

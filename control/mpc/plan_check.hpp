@@ -69,6 +69,13 @@ class PlanCheck {
   [[nodiscard]] const Footprint& footprint() const { return settings_.footprint; }
 
  private:
+  // How near the vehicle must come to touch an object.
+  struct Reach {
+    Eigen::Vector2d centre{0.0, 0.0};  // of the object now [m]
+    double far = 0.0;                  // distance of the centres above which they are apart [m]
+    bool stands = false;
+    bool touched = false;  // the vehicle touches it already
+  };
   struct Braking {
     double distance = 0.0;      // along the path [m]
     double speed = 0.0;         // [m/s]
@@ -76,6 +83,7 @@ class PlanCheck {
     double time = 0.0;          // from now [s]
   };
   [[nodiscard]] double OffRoad(const State& z, double& s) const;
+  [[nodiscard]] double MostOffRoad(const State& z, const RouteProjection& centre) const;
   [[nodiscard]] double BeyondGrip(const State& z, const Input& u) const;
   [[nodiscard]] double Brakes(double speed, double curvature, double deceleration) const;
   // The step that ends `time` [s] from now.
@@ -98,7 +106,7 @@ class PlanCheck {
   State z_ = State::Zero();
   double s_ = 0.0;
   std::span<const Obstacle> obstacles_;
-  std::array<bool, RoadObjects::kMost> touched_{};  // objects that the vehicle touches already
+  std::array<Reach, RoadObjects::kMost> reach_{};  // of each object
   double off_road_ = 0.0;  // largest distance beyond the road's edge that counts as none [m]
   double a_y_ = 0.0;       // [m/s²]
   double mu_;

@@ -234,11 +234,11 @@ std::optional<HalfSpace> TrackingProblem::Outside(std::size_t k, std::size_t i, 
   const bool goes_away = passed == Side::kLeft ? object.drift < 0.0 : object.drift > 0.0;
   if (goes_away) time = object.Since(time);
   const Obstacle obstacle = Predict(obstacles_[object.index], object, *profile_, time);
-  const double psi_road = profile_->At(object.SAt(time)).psi;
-  if (k == first_stop_) return HalfSpaceBefore(obstacle, psi_road, margin);
+  const Vector2d t = object.speed == 0.0 ? object.along : Along(profile_->At(object.SAt(time)).psi);
+  if (k == first_stop_) return HalfSpaceBefore(obstacle, t, margin);
   const PassingSide side = passed == Side::kLeft ? PassingSide::kLeft : PassingSide::kRight;
   const double reach = 0.5 * settings_.t_s * z_hat[kUpsilon] + margin;
-  return PassingHalfSpace(obstacle, side, z_hat, psi_road, settings_.footprint, margin, reach);
+  return PassingHalfSpace(obstacle, side, z_hat, t, settings_.footprint, margin, reach);
 }
 
 }  // namespace control

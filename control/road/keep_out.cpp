@@ -28,11 +28,10 @@ double SupportOf(const Obstacle& obstacle, const Vector2d& direction) {
 }
 
 std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide side, const State& z,
-                                          double psi_road, const Footprint& footprint, double margin,
+                                          const Vector2d& t, const Footprint& footprint, double margin,
                                           double reach) {
-  const Vector2d t = Along(psi_road);
   const double sign = side == PassingSide::kLeft ? 1.0 : -1.0;
-  const Vector2d n = sign * LeftOf(psi_road);
+  const Vector2d n = sign * Vector2d(-t.y(), t.x());
   // Road axes: t along the road, n towards the passing side. From the obstacle's centre, the vehicle covers `rear` to
   // `front` along t. The tangent touches the obstacle's edge over that interval, as near as possible to its widest
   // point.
@@ -51,8 +50,8 @@ std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide 
   return Beyond(obstacle, enlarged, (n - slope * t).normalized());
 }
 
-HalfSpace HalfSpaceBefore(const Obstacle& obstacle, double psi_road, double margin) {
-  return Beyond(obstacle, EnlargedObstacle(obstacle, margin), -Along(psi_road));
+HalfSpace HalfSpaceBefore(const Obstacle& obstacle, const Vector2d& t, double margin) {
+  return Beyond(obstacle, EnlargedObstacle(obstacle, margin), -t);
 }
 
 }  // namespace control

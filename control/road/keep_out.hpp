@@ -22,13 +22,13 @@ namespace control {
 [[nodiscard]] double SupportOf(const Obstacle& obstacle, const Eigen::Vector2d& direction);
 
 // The half-space that lets the vehicle at `z` pass on the given side (not kUnknown) of the obstacle, enlarged by
-// `margin` [m], on a road of heading `psi_road`; nullopt if the vehicle is more than `reach` [m] before or behind it.
+// `margin` [m], on a road along the unit vector t; nullopt if the vehicle is more than `reach` [m] before or behind it.
 [[nodiscard]] std::optional<HalfSpace> PassingHalfSpace(const Obstacle& obstacle, PassingSide side,
-                                                        const State& z, double psi_road,
+                                                        const State& z, const Eigen::Vector2d& t,
                                                         const Footprint& footprint, double margin,
                                                         double reach);
 
-// The half-space before the obstacle, across a road of heading `psi_road`, for a vehicle that cannot pass.
-[[nodiscard]] HalfSpace HalfSpaceBefore(const Obstacle& obstacle, double psi_road, double margin);
+// The half-space before the obstacle, across a road along the unit vector t, for a vehicle that cannot pass.
+[[nodiscard]] HalfSpace HalfSpaceBefore(const Obstacle& obstacle, const Eigen::Vector2d& t, double margin);
 
 }  // namespace control

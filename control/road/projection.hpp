@@ -36,12 +36,17 @@ struct PathOffset {
   double left = 0.0;
 };
 
+// `along`: unit vector along the path at `point`.
+[[nodiscard]] inline PathOffset OffsetFrom(const Eigen::Vector2d& point, const Eigen::Vector2d& along,
+                                           const Eigen::Vector2d& position) {
+  const Eigen::Vector2d d = position - point;
+  return {.ahead = along.dot(d), .left = along.x() * d.y() - along.y() * d.x()};
+}
+
 // `psi`: heading of the path at `point` [rad].
 [[nodiscard]] inline PathOffset OffsetFrom(const Eigen::Vector2d& point, double psi,
                                            const Eigen::Vector2d& position) {
-  const Eigen::Vector2d along(std::cos(psi), std::sin(psi));
-  const Eigen::Vector2d d = position - point;
-  return {.ahead = along.dot(d), .left = along.x() * d.y() - along.y() * d.x()};
+  return OffsetFrom(point, Along(psi), position);
 }
 
 [[nodiscard]] inline Eigen::Vector2d Position(const RoutePoint& point) {

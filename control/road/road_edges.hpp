@@ -32,11 +32,22 @@ class RoadEdges {
   // Takes a time that depends only on the number of samples within half a metre, and does not allocate.
   [[nodiscard]] RoadBounds At(double s) const;
 
+  // The bounds where they are narrowest between two arc lengths, from ≤ to: the least distance of each edge. Takes a time
+  // that grows with the number of samples between them, and does not allocate.
+  [[nodiscard]] RoadBounds Narrowest(double from, double to) const;
+
+  // The greatest distance of an edge from the reference path [m], at least 0.
+  [[nodiscard]] double Widest() const { return widest_; }
+
   // The road without a strip of this width [m] along each edge.
   [[nodiscard]] RoadEdges Inset(double width) const;
 
  private:
+  // The last sample that is not after s, which is between the first sample and the last one.
+  [[nodiscard]] std::size_t Before(double s) const;
+
   std::vector<RoadSample> samples_;
+  double widest_;
   // For each cell of kCell metres from the first sample on, the last sample that is not after the cell's begin.
   std::vector<std::size_t> cells_;
 };

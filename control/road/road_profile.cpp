@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/road/projection.hpp"
 
@@ -23,11 +24,13 @@ RoadProfile::RoadProfile(const Route& route, const RoadEdges& edges, const Speed
   const auto steps = std::max<long>(1, std::lround(std::ceil(length_ / kSpacing)));
   spacing_ = length_ / static_cast<double>(steps);
   points_.reserve(static_cast<std::size_t>(steps) + 1);
+  along_.reserve(static_cast<std::size_t>(steps) + 1);
   for (long k = 0; k <= steps; ++k) {
     RoutePoint point = route.At(static_cast<double>(k) * spacing_);
     const double curvature = std::max(std::abs(point.curvature), 1e-9);
     point.speed = std::min(point.speed, std::sqrt(limits.lateral / curvature));
     points_.push_back(point);
+    along_.push_back(Along(point.psi));
   }
   points_.back().speed = 0.0;
   for (std::size_t k = points_.size() - 1; k-- > 0;) {
@@ -37,6 +40,12 @@ RoadProfile::RoadProfile(const Route& route, const RoadEdges& edges, const Speed
   }
 }
 
+RoadProfile::Place RoadProfile::PlaceAt(double s) const {
+  const double place = s / spacing_;
+  const auto k = std::min(static_cast<std::size_t>(place), points_.size() - 2);
+  return {.k = k, .share = place - static_cast<double>(k)};
+}
+
 RoutePoint RoadProfile::At(double s) const {
   if (s <= 0.0) {
     return StraightAhead(points_.front(), s);
@@ -44,9 +53,7 @@ RoutePoint RoadProfile::At(double s) const {
   if (s >= length_) {
     return StraightAhead(points_.back(), s - length_);
   }
-  const double place = s / spacing_;
-  const auto k = std::min(static_cast<std::size_t>(place), points_.size() - 2);
-  const double share = place - static_cast<double>(k);
+  const auto [k, share] = PlaceAt(s);
   const RoutePoint& from = points_[k];
   const RoutePoint& to = points_[k + 1];
   // v² is linear in s, so that the speed falls at the profile's deceleration down to 0.
@@ -58,6 +65,18 @@ RoutePoint RoadProfile::At(double s) const {
           .speed = std::sqrt(squared)};
 }
 
+double RoadProfile::TurnWithin(double s, double distance) const {
+  const double last = static_cast<double>(points_.size() - 1);
+  const auto sample = [&](double place) { return static_cast<std::size_t>(std::clamp(place, 0.0, last)); };
+  const std::size_t end = sample(std::ceil((s + distance) / spacing_));
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (std::size_t k = sample(std::floor((s - distance) / spacing_)); k <= end; ++k) {
+    least = std::min(least, points_[k].psi);
+    most = std::max(most, points_[k].psi);
+  }
+  return most - least;
+}
+
 RouteProjection RoadProfile::Project(const Eigen::Vector2d& position, double hint) const {
   const auto at = [&](int k) -> const RoutePoint& { return points_[static_cast<std::size_t>(k)]; };
   const auto distance = [&](int k) { return (position - Position(at(k))).squaredNorm(); };
@@ -65,13 +84,24 @@ RouteProjection RoadProfile::Project(const Eigen::Vector2d& position, double hin
   const auto from = static_cast<int>(std::clamp(std::round(hint / spacing_), 0.0, static_cast<double>(last)));
   const int k = NearestSample(distance, from, 0, last);
   const RoutePoint& point = at(k);
-  const auto [ahead, left] = OffsetFrom(Position(point), point.psi, position);
+  const auto [ahead, left] = OffsetFrom(Position(point), along_[static_cast<std::size_t>(k)], position);
   // On a curve, the arc length from the sample to the projection differs from the distance ahead along the tangent.
   const bool inside = k > 0 && k < last;
   const double stretch = inside ? std::max(1.0 - point.curvature * left, 0.1) : 1.0;
   const double s = static_cast<double>(k) * spacing_ + ahead / stretch;
-  const RoutePoint foot = At(s);
-  return {.s = s, .lateral = OffsetFrom(Position(foot), foot.psi, position).left};
+  return {.s = s, .lateral = LateralOf(position, s)};
+}
+
+// Distance of the position to the left of the road's point at s. The direction there is found without its angle, whose sine
+// and cosine would take most of the time.
+double RoadProfile::LateralOf(const Eigen::Vector2d& position, double s) const {
+  if (s <= 0.0) return OffsetFrom(Position(points_.front()), along_.front(), position).left;
+  if (s >= length_) return OffsetFrom(Position(points_.back()), along_.back(), position).left;
+  const auto [k, share] = PlaceAt(s);
+  const Eigen::Vector2d from = Position(points_[k]), along = along_[k];
+  return OffsetFrom(from + share * (Position(points_[k + 1]) - from),
+                    (along + share * (along_[k + 1] - along)).normalized(), position)
+      .left;
 }
 
 }  // namespace control

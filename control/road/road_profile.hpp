@@ -34,11 +34,24 @@ class RoadProfile {
   [[nodiscard]] RoutePoint At(double s) const;
   // The road's edges beside the point at s.
   [[nodiscard]] RoadBounds RoadAt(double s) const { return edges_.At(s); }
+  // The road's bounds where they are narrowest between two arc lengths, from ≤ to.
+  [[nodiscard]] RoadBounds NarrowestRoad(double from, double to) const { return edges_.Narrowest(from, to); }
+  // The largest angle between directions of the road within `distance` [m] before and behind s [rad].
+  [[nodiscard]] double TurnWithin(double s, double distance) const;
   // The nearest point of the road profile, by local search from s = `hint`.
   [[nodiscard]] RouteProjection Project(const Eigen::Vector2d& position, double hint) const;
 
  private:
-  std::vector<RoutePoint> points_;  // points at s = k spacing_
+  // A place between samples k and k + 1.
+  struct Place {
+    std::size_t k = 0;
+    double share = 0.0;  // of the spacing, from sample k on
+  };
+  [[nodiscard]] Place PlaceAt(double s) const;
+  [[nodiscard]] double LateralOf(const Eigen::Vector2d& position, double s) const;
+
+  std::vector<RoutePoint> points_;      // points at s = k spacing_
+  std::vector<Eigen::Vector2d> along_;  // unit vectors along the road there
   double spacing_;
   double length_;
   RoadEdges edges_;

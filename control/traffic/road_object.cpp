@@ -26,6 +26,7 @@ RoadObject PlaceOnRoad(const Obstacle& obstacle, std::size_t index, const RoadPr
           .lateral = place.lateral,
           .speed = speed,
           .drift = drift,
+          .along = along,
           .half_length = SupportOf(obstacle, along),
           .half_width = SupportOf(obstacle, left),
           .crosses = velocity.norm() < kStands || std::abs(drift) > kCrossingSlope * std::abs(speed),

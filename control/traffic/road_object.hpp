@@ -17,15 +17,16 @@ struct RoadObject {
   static constexpr double kDrift = 2.0;
   static constexpr double kMoving = 0.5;  // speed from which an object is taken to move [m/s]
 
-  std::size_t index = 0;     // in the list of obstacles
-  double s = 0.0;            // arc length of the centre [m]
-  double lateral = 0.0;      // of the centre, left positive [m]
-  double speed = 0.0;        // along the road [m/s]
-  double drift = 0.0;        // lateral velocity, left positive [m/s]
-  double half_length = 0.0;  // along the road [m]
-  double half_width = 0.0;   // across the road [m]
-  bool crosses = false;      // moves across the road rather than along it
-  bool yielded_to = false;   // the vehicle has decided to let it go first
+  std::size_t index = 0;            // in the list of obstacles
+  double s = 0.0;                   // arc length of the centre [m]
+  double lateral = 0.0;             // of the centre, left positive [m]
+  double speed = 0.0;               // along the road [m/s]
+  double drift = 0.0;               // lateral velocity, left positive [m/s]
+  Eigen::Vector2d along{1.0, 0.0};  // unit vector along the road beside it
+  double half_length = 0.0;         // along the road [m]
+  double half_width = 0.0;          // across the road [m]
+  bool crosses = false;             // moves across the road rather than along it
+  bool yielded_to = false;          // the vehicle has decided to let it go first
   PassingSide side = PassingSide::kUnknown;
   ObstacleClass object_class = ObstacleClass::kUnknown;
 

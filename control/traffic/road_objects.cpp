@@ -29,26 +29,34 @@ void RoadObjects::Select(std::span<const Obstacle> obstacles, const RoadPosition
   left_out_ = 0;
   if (obstacles.empty()) return;
   double reach = 0.0;
-  for (const Obstacle& obstacle : obstacles) {
-    reach = std::max(
-        reach, std::hypot(obstacle.velocity_X, obstacle.velocity_Y) * time_ + obstacle.r_x + obstacle.r_y);
-  }
+  for (const Obstacle& obstacle : obstacles) reach = std::max(reach, HowFar(obstacle));
   SampleCourse(vehicle.s - kBehind, vehicle.s + std::min(distance + footprint_.front + reach, kFarthest));
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const double far = profile_->edges().Widest() + kBeside + HowFar(obstacles[k]) + kStride;
     const Eigen::Vector2d centre(obstacles[k].X, obstacles[k].Y);
-    double before = kInfinity, now = (course_.front() - centre).squaredNorm(), last_added = -kInfinity;
+    const auto squared = [&](std::size_t j) {
+      return j < course_.size() ? (course_[j] - centre).squaredNorm() : kInfinity;
+    };
+    double last_added = -kInfinity;
     for (std::size_t j = 0; j < course_.size(); ++j) {
-      const double next = j + 1 < course_.size() ? (course_[j + 1] - centre).squaredNorm() : kInfinity;
-      if (now <= before && now < next) {
-        const double hint = course_from_ + static_cast<double>(j) * kStride;
-        const RoadObject object = PlaceOnRoad(obstacles[k], k, *profile_, hint);
-        if (object.s > last_added + kSamePlace) Add(object, vehicle, distance);
-        last_added = std::max(last_added, object.s);
+      const double now = squared(j);
+      if (now > far * far) {
+        // Nor is it beside the next points, as far as they are nearer to this one than the object is.
+        j += static_cast<std::size_t>((std::sqrt(now) - far) / kStride);
+        continue;
       }
-      before = now;
-      now = next;
+      if (now >= squared(j + 1) || (j > 0 && now > squared(j - 1))) continue;
+      const double hint = course_from_ + static_cast<double>(j) * kStride;
+      const RoadObject object = PlaceOnRoad(obstacles[k], k, *profile_, hint);
+      if (object.s > last_added + kSamePlace) Add(object, vehicle, distance);
+      last_added = std::max(last_added, object.s);
     }
   }
+}
+
+// The distance from its centre within which the object can be within the horizon [m].
+double RoadObjects::HowFar(const Obstacle& obstacle) const {
+  return std::hypot(obstacle.velocity_X, obstacle.velocity_Y) * time_ + obstacle.r_x + obstacle.r_y;
 }
 
 void RoadObjects::SampleCourse(double from, double to) {

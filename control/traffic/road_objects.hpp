@@ -43,6 +43,7 @@ class RoadObjects {
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
 
  private:
+  [[nodiscard]] double HowFar(const Obstacle& obstacle) const;
   void SampleCourse(double from, double to);
   void Add(const RoadObject& object, const RoadPosition& vehicle, double distance);
   [[nodiscard]] bool Matters(const RoadObject& object, const RoadPosition& vehicle, double distance) const;

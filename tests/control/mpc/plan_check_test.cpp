@@ -9,6 +9,7 @@
 #include "control/road/projection.hpp"
 #include "control/vehicle/steady_cornering.hpp"
 #include "tests/control/narrowing.hpp"
+#include "tests/control/roads.hpp"
 
 namespace control {
 namespace {
@@ -144,6 +145,33 @@ TEST_F(PlanCheckTest, ACornerOffTheRoadIsNamedWithItsStep) {
   // The front left corner is off the road once 1.95 sin ψ + 0.9 cos ψ + 0.75 i sin ψ exceeds 4 m.
   const double needed = (4.0 - 1.95 * std::sin(psi) - 0.9 * std::cos(psi)) / (0.75 * std::sin(psi));
   EXPECT_NEAR(violation->constraint.step, needed, 1.5);
+}
+
+// Whatever the road's bend and the vehicle's heading, the plan is refused at the step at which a corner leaves the road.
+TEST_F(PlanCheckTest, InABendACornerIsOffTheRoadFromTheSameStepOnAsItsPlaceOnTheRoad) {
+  const DiscreteModel model(BlendedModel(VehicleParameters{}), 0.05);
+  for (const double radius : {12.0, 25.0, 60.0}) {
+    const RoadProfile bend(testing::CircularRoad(radius, 1.0, 12.0), RoadBounds{}, SpeedLimits{});
+    PlanCheck check{{.vehicle = {}, .footprint = footprint_, .mu = 2.0, .t_s = 0.05}, bend};
+    for (const double delta : {-0.05, 0.0, 0.05, 0.2, 0.3}) {
+      const RoutePoint start = bend.At(4.0);
+      State z;
+      z << start.X, start.Y, 7.0, 0.0, start.psi, 0.0;
+      const std::vector<Input> u = Constant(delta, 0.0);
+      check.Begin(z, 4.0, {});
+      const auto violation = check.Validate(u);
+      int first = 0;
+      for (int step = 1; step <= kSteps && first == 0; ++step) {
+        z = model.Step(z, u[0]);
+        for (const Eigen::Vector2d& corner : footprint_.Corners()) {
+          const RouteProjection place =
+              bend.Project(Position(z) + Rotate(z[kPsi], corner), 4.0 + 0.35 * step);
+          if (std::abs(place.lateral) > 4.0 + 0.02) first = step;
+        }
+      }
+      EXPECT_EQ(violation ? violation->constraint.step : 0, first) << radius << " m, " << delta << " rad";
+    }
+  }
 }
 
 TEST_F(PlanCheckTest, WhoIsOffTheRoadMayComeBack) {

@@ -93,7 +93,7 @@ struct Encounter {
   State z = AtObstacle(obstacle, psi_road, along, Between(-5.0, 5.0), Between(-0.6, 0.6));
 
   [[nodiscard]] std::optional<HalfSpace> Passing() const {
-    return PassingHalfSpace(obstacle, side, z, psi_road, kCar, margin, 1.0);
+    return PassingHalfSpace(obstacle, side, z, Along(psi_road), kCar, margin, 1.0);
   }
   // Unit vector to the side on which the obstacle is passed.
   [[nodiscard]] Vector2d Aside() const {
@@ -150,7 +150,8 @@ RC_GTEST_PROP(PassingHalfSpace, ThereIsNoneFurtherThanItsReach, ()) {
     const double behind = e.half_length + reach + kCar.rear + beyond;
     for (const double along : {before, behind}) {
       e.z = AtObstacle(e.obstacle, e.psi_road, along, 0.0);
-      const auto outside = PassingHalfSpace(e.obstacle, e.side, e.z, e.psi_road, kCar, e.margin, reach);
+      const auto outside =
+          PassingHalfSpace(e.obstacle, e.side, e.z, Along(e.psi_road), kCar, e.margin, reach);
       RC_ASSERT(outside.has_value() == (beyond < 0.0));
     }
   }
@@ -159,7 +160,8 @@ RC_GTEST_PROP(PassingHalfSpace, ThereIsNoneFurtherThanItsReach, ()) {
 TEST(PassingHalfSpace, BeforeTheObstacleItsEdgeTurnsTowardsTheVehicle) {
   const Obstacle circle{.X = 10.0, .Y = 1.0, .r_x = 2.0, .r_y = 2.0};
   const auto side = [&](double along, PassingSide passing) {
-    return *PassingHalfSpace(circle, passing, AtObstacle(circle, 0.0, along, 0.0), 0.0, kCar, 0.0, 1.0);
+    return *PassingHalfSpace(circle, passing, AtObstacle(circle, 0.0, along, 0.0), Along(0.0), kCar, 0.0,
+                             1.0);
   };
   // The front is 1 m short of the circle's centre, where the circumference has slope 1/√3.
   const HalfSpace before = side(-3.0, PassingSide::kLeft);
@@ -176,7 +178,7 @@ TEST(PassingHalfSpace, BeforeABoxItsEdgeTurnsAboutTheCornerAndIsAlongTheRoadBesi
   constexpr double kMargin = 0.4;
   const auto left = [&](double front) {
     const State z = AtObstacle(lorry, 0.0, front - kCar.front, 0.0);
-    return *PassingHalfSpace(lorry, PassingSide::kLeft, z, 0.0, kCar, kMargin, 1.0);
+    return *PassingHalfSpace(lorry, PassingSide::kLeft, z, Along(0.0), kCar, kMargin, 1.0);
   };
   // The front is beside the lorry: its side and the margin.
   for (const double front : {-8.0, -3.0, 8.0}) {
@@ -198,14 +200,14 @@ TEST(PassingHalfSpace, ASideOfABoxAtAnAngleIsFollowed) {
       .X = 0.0, .Y = 0.0, .r_x = 4.0, .r_y = 1.0, .heading = 0.3, .shape = ObstacleShape::kBox};
   // Its left side rises from the rear corner to the front corner; the vehicle's front is in between.
   const State z = AtObstacle(box, 0.0, -kCar.front, 0.0);
-  const HalfSpace outside = *PassingHalfSpace(box, PassingSide::kLeft, z, 0.0, kCar, 0.0, 1.0);
+  const HalfSpace outside = *PassingHalfSpace(box, PassingSide::kLeft, z, Along(0.0), kCar, 0.0, 1.0);
   EXPECT_NEAR(outside.a, -std::sin(0.3), 1e-12);
   EXPECT_NEAR(outside.c, 1.0, 1e-12);
 }
 
 RC_GTEST_PROP(HalfSpaceBefore, EndsAtTheObstacleAcrossTheRoad, ()) {
   const Encounter e;
-  const HalfSpace outside = HalfSpaceBefore(e.obstacle, e.psi_road, e.margin);
+  const HalfSpace outside = HalfSpaceBefore(e.obstacle, Along(e.psi_road), e.margin);
   RC_ASSERT((Vector2d(outside.a, outside.b) + Along(e.psi_road)).norm() < 1e-12);
   const Vector2d nearest =
       Vector2d(e.obstacle.X, e.obstacle.Y) + Farthest(e.obstacle, e.margin, -Along(e.psi_road));

@@ -61,12 +61,30 @@ TEST(RoadEdges, SamplesAtAnySpacingAreMetAndJoined) {
   }
 }
 
+TEST(RoadEdges, TheNarrowestPlaceIsFoundBetweenTheSamplesAndAtThem) {
+  const std::array samples{RoadSample{.s = 0.0, .bounds = {.left = 4.0, .right = -3.0}},
+                           RoadSample{.s = 10.0, .bounds = {.left = 2.0, .right = -5.0}},
+                           RoadSample{.s = 20.0, .bounds = {.left = 6.0, .right = -1.0}}};
+  const RoadEdges edges(samples);
+  const RoadBounds past =
+      edges.Narrowest(5.0, 15.0);  // the left edge is nearest at s = 10, the right one at 15
+  EXPECT_NEAR(past.left, 2.0, 1e-12);
+  EXPECT_NEAR(past.right, -3.0, 1e-12);
+  const RoadBounds before = edges.Narrowest(-20.0, -10.0), all = edges.Narrowest(-20.0, 50.0);
+  EXPECT_NEAR(before.left, 4.0, 1e-12);
+  EXPECT_NEAR(before.right, -3.0, 1e-12);
+  EXPECT_NEAR(all.left, 2.0, 1e-12);
+  EXPECT_NEAR(all.right, -1.0, 1e-12);
+  EXPECT_NEAR(edges.Widest(), 6.0, 1e-12);
+}
+
 TEST(RoadEdges, InsetMovesBothEdgesInwards) {
   const std::array samples{RoadSample{.s = 0.0, .bounds = {.left = 4.0, .right = -3.0}},
                            RoadSample{.s = 10.0, .bounds = {.left = 2.0, .right = -1.0}}};
   const RoadEdges inset = RoadEdges(samples).Inset(0.9);
   EXPECT_NEAR(inset.At(5.0).left, 3.0 - 0.9, 1e-12);
   EXPECT_NEAR(inset.At(5.0).right, -2.0 + 0.9, 1e-12);
+  EXPECT_NEAR(inset.Widest(), 4.0 - 0.9, 1e-12);
 }
 
 std::string ErrorOf(const std::vector<RoadSample>& samples) {

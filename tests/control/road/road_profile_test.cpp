@@ -60,6 +60,16 @@ TEST(RoadProfile, ProjectionStaysOnTheLegThatTheHintIsOn) {
   EXPECT_NEAR(profile.Project(between, back - 2.0).s, back, 0.05);
 }
 
+TEST(RoadProfile, TurnsAlongAPartOfItByTheAngleBetweenItsDirections) {
+  const Route route = CircularRoad(kRadius, 0.6, 12.0);
+  const RoadProfile profile(route, {}, {});
+  const double s = 0.5 * route.length(), within = profile.TurnWithin(s, 3.0);
+  EXPECT_GE(within, 6.0 / kRadius - 1e-9);
+  EXPECT_LT(within, (6.0 + 2.0 * RoadProfile::kSpacing) / kRadius + 1e-9);  // whole samples
+  EXPECT_EQ(RoadProfile(StraightRoad(30.0, 12.0), {}, {}).TurnWithin(10.0, 3.0), 0.0);
+  EXPECT_EQ(profile.TurnWithin(-10.0, 3.0), 0.0);
+}
+
 TEST(RoadProfile, SpeedKeepsToTheTargetTheCurvesAndTheBrakes) {
   const SpeedLimits limits{.lateral = 2.0, .acceleration = 1.5, .deceleration = 2.5};
   const Route route = WindingRoad(kRadius, 14.0);
