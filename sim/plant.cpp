@@ -9,7 +9,7 @@ namespace {
 using control::Input;
 using control::State;
 
-// Below this wheel speed the brake fades out, so that it holds and does not push backwards [m/s].
+// Below this wheel speed the brake fades out, so that it does not push backwards [m/s].
 constexpr double kBrakeFade = 0.1;
 
 double BrakeShare(double rolling_speed) {
@@ -128,12 +128,28 @@ State Plant::Derivative(const State& z, const Input& u) const {
   return derivative;
 }
 
+// On a slope: the brake demands more than gravity pulls along the road, and the tyres can give it.
+bool Plant::BrakeHolds(const Input& u) const {
+  const double pull = std::abs(Pull().x());
+  const bool slides = parameters_.tyre == Tyre::kSaturating && pull > parameters_.mu * kGravity;
+  return pull > 0.0 && pull < -u[control::kAcceleration] && !slides;
+}
+
 void Plant::Step(const Input& start, const Input& middle, const Input& end, double h) {
-  const State k1 = Derivative(state_, start);
-  const State k2 = Derivative(state_ + 0.5 * h * k1, middle);
-  const State k3 = Derivative(state_ + 0.5 * h * k2, middle);
-  const State k4 = Derivative(state_ + h * k3, end);
-  state_ += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  const bool holds = BrakeHolds(start) && BrakeHolds(end);
+  const bool stands = state_[control::kUpsilon] == 0.0;
+  if (!holds || !stands) {
+    const State k1 = Derivative(state_, start);
+    const State k2 = Derivative(state_ + 0.5 * h * k1, middle);
+    const State k3 = Derivative(state_ + 0.5 * h * k2, middle);
+    const State k4 = Derivative(state_ + h * k3, end);
+    state_ += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  // The fading brake would let the vehicle creep down the slope at this speed.
+  const double creep = kBrakeFade * std::abs(Pull().x()) / std::max(-end[control::kAcceleration], 1e-9);
+  if (holds && std::abs(state_[control::kUpsilon]) <= 1.1 * creep) {
+    state_[control::kUpsilon] = state_[control::kNu] = state_[control::kOmega] = 0.0;
+  }
   time_ += h;
 }
 

@@ -10,7 +10,8 @@
 //  - disturbances: an offset of both front wheels, gravity on an inclined road (its effect on the wheels' loads is
 //    neglected), and a side wind that pushes at the centre of gravity for a while
 // Below kSlipSpeed the slip is relative to that speed, so standstill is no special case: the tyres then damp
-// sideways motion instead of dividing by zero, and a braked vehicle comes to rest and stays at rest.
+// sideways motion instead of dividing by zero, and a braked vehicle comes to rest and stays at rest, on a slope as well
+// if the brake is stronger than the pull of gravity.
 // With linear tyres and neither track nor height it differs from the paper's bicycle model (eq:dynamic_model)
 // only in the terms which that neglects: sin δ in the front tyres' forces and cos δ in their moment.
 #pragma once
@@ -76,6 +77,7 @@ class Plant {
  private:
   [[nodiscard]] double WheelAngle(const control::Input& u) const;
   [[nodiscard]] Eigen::Vector2d Pull() const;
+  [[nodiscard]] bool BrakeHolds(const control::Input& u) const;
   [[nodiscard]] std::array<double, kWheels> Loads(const control::State& z, const control::Input& u) const;
 
   PlantParameters parameters_;

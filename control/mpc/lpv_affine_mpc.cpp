@@ -50,6 +50,7 @@ const Plan& LpvAffineMpc::Step(const ControllerInput& input) {
   disturbance_ = input.disturbance;
   grip_ = Grip(settings_, input.mu_limit);
   model_ = DiscreteModel(BlendedModel(vehicle_, disturbance_), settings_.t_s);
+  tracking_.SetFrictionLimit(input.mu_limit);
   tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance, input.slow_down);
   plan_.manoeuvre = tracking_.manoeuvre_status();
   plan_.beyond = tracking_.manoeuvre().path;

@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 
 constexpr double kLeastStretch = 0.1;  // beyond the centre of a bend
 constexpr double kOverLimit = 0.3;     // [m/s]
+constexpr double kStandstill = 0.15;   // speed that noise alone may show [m/s]
 constexpr double kSlowDown = 1.0;      // deceleration of a vehicle that is too fast, at least [m/s²]
 
 TrafficSettings TrafficSettingsOf(const VehicleParameters& vehicle, const LpvAffineSettings& settings) {
@@ -56,8 +57,9 @@ bool Overtakes(const Manoeuvre& manoeuvre) {
 TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                                  const LpvAffineSettings& settings)
     : settings_(settings),
+      grip_(Grip(settings)),
       profile_(&profile),
-      progress_(vehicle, profile, settings.t_s, Grip(settings)),
+      progress_(vehicle, profile, settings.t_s, grip_),
       traffic_(TrafficSettingsOf(vehicle, settings), profile) {
   const auto N = static_cast<std::size_t>(settings.horizon);
   z_ref_.assign(N + 1, State::Zero());
@@ -67,16 +69,22 @@ TrackingProblem::TrackingProblem(const VehicleParameters& vehicle, const RoadPro
   counts_.assign(N + 1, 0);
 }
 
+void TrackingProblem::SetFrictionLimit(double mu_limit) {
+  grip_ = Grip(settings_, mu_limit);
+  progress_.SetGrip(grip_);
+  traffic_.SetGrip(grip_);
+}
+
 void TrackingProblem::Reset() {
-  waiting_ = false;
+  waiting_ = rolled_ = false;
   traffic_.Reset();
 }
 
 void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> obstacles,
                             const Disturbance& disturbance, bool slow_down) {
-  constexpr double kStandstill = 0.15;    // [m/s]
   constexpr double kLeastDistance = 0.3;  // [m]
   obstacles_ = obstacles;
+  slope_ = disturbance.a_x;
   Place(z, s);
   manoeuvre_ = &traffic_.Plan(obstacles, place_);
   first_stop_ = RoadObjects::kMost;
@@ -90,6 +98,7 @@ void TrackingProblem::Begin(const State& z, double s, std::span<const Obstacle> 
                  slow_down && !Overtakes(*manoeuvre_));
   const bool nowhere_to_go =
       s_ref_.back() - s_ref_.front() < kLeastDistance && first_s - place_.s < kLeastDistance;
+  rolled_ = waiting_ && (rolled_ || std::abs(z_[kUpsilon]) > kStandstill);
   waiting_ = nowhere_to_go && z_[kUpsilon] < (waiting_ ? 2.0 : 1.0) * kStandstill;
 }
 
@@ -108,7 +117,7 @@ ManoeuvreStatus TrackingProblem::manoeuvre_status() const {
 
 // The highest speed that road and manoeuvre allow at arc length s [m/s].
 double TrackingProblem::LimitAt(double s) const {
-  return std::min(profile_->At(s).speed, manoeuvre_->SpeedLimitAt(s));
+  return std::min(profile_->SpeedWithin(grip_, s), manoeuvre_->SpeedLimitAt(s));
 }
 
 double TrackingProblem::SpeedLimit(std::size_t i) const {
@@ -119,14 +128,15 @@ double TrackingProblem::SpeedLimit(std::size_t i) const {
 }
 
 void TrackingProblem::Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const {
-  constexpr double kBrake = -1.0;  // [m/s²]
+  constexpr double kBrake = 1.0, kRolled = 3.0;  // beyond what the slope needs [m/s²]
+  const double brake = std::abs(slope_) + (rolled_ ? kRolled : kBrake);
   State still = z_;
   still[kUpsilon] = still[kNu] = still[kOmega] = 0.0;
   std::ranges::fill(z, still);
   Input last = u_previous;
   for (Input& planned : u) {
     const double step = settings_.rate_max[kAcceleration];
-    last[kAcceleration] += std::clamp(kBrake - last[kAcceleration], -step, step);
+    last[kAcceleration] += std::clamp(-brake - last[kAcceleration], -step, step);
     planned = last;
   }
 }

@@ -41,6 +41,8 @@ class TrackingProblem {
   TrackingProblem(const VehicleParameters& vehicle, const RoadProfile& profile,
                   const LpvAffineSettings& settings);
 
+  // Bounds the friction coefficient from now on, besides that of the settings.
+  void SetFrictionLimit(double mu_limit);
   // `s`: where the search for the vehicle's place on the road begins [m].
   void Begin(const State& z, double s, std::span<const Obstacle> obstacles,
              const Disturbance& disturbance = {}, bool slow_down = false);
@@ -55,7 +57,7 @@ class TrackingProblem {
   [[nodiscard]] double SpeedLimit(std::size_t i) const;
   // True (almost) at standstill with nowhere to go; hysteresis keeps noise from ending it.
   [[nodiscard]] bool waiting() const { return waiting_; }
-  // Fills in the plan of a waiting vehicle: the brake holds, the wheels stay as they are.
+  // Fills in the plan of a waiting vehicle: the brake holds it whatever the slope, the wheels stay as they are.
   void Hold(const Input& u_previous, std::span<State> z, std::span<Input> u) const;
   [[nodiscard]] std::span<const State> reference() const { return z_ref_; }
   [[nodiscard]] std::span<const Input> reference_input() const { return u_ref_; }
@@ -72,6 +74,7 @@ class TrackingProblem {
   [[nodiscard]] std::optional<HalfSpace> Outside(std::size_t k, std::size_t i, const State& z_hat) const;
 
   LpvAffineSettings settings_;
+  double grip_;  // acceleration that the tyres can give [m/s²]
   const RoadProfile* profile_;
   ProgressReference progress_;
   TrafficPlanner traffic_;
@@ -79,6 +82,8 @@ class TrackingProblem {
   State z_ = State::Zero();
   RoadPosition place_;
   bool waiting_ = false;
+  bool rolled_ = false;  // although it was waiting
+  double slope_ = 0.0;   // acceleration that pulls the vehicle along the road [m/s²]
   std::span<const Obstacle> obstacles_;
   const Manoeuvre* manoeuvre_;
   std::size_t first_stop_ = RoadObjects::kMost;  // road object before which the vehicle stops; kMost: none

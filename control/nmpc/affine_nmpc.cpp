@@ -39,6 +39,7 @@ const Plan& AffineNmpc::Step(const ControllerInput& input) {
     prediction_.Shift();
     return plan_;
   }
+  tracking_.SetFrictionLimit(input.mu_limit);
   tracking_.Begin(input.z, input.place.s, input.obstacles, input.disturbance, input.slow_down);
   plan_.manoeuvre = tracking_.manoeuvre_status();
   if (tracking_.waiting()) {

@@ -9,6 +9,8 @@
 namespace control {
 namespace {
 
+constexpr double kShareOfGrip = 0.9;  // that is used
+
 double Mix(double from, double to, double share) {
   return from + share * (to - from);
 }
@@ -19,24 +21,40 @@ double StoppingSpeed(double distance, double deceleration) {
   return distance > RoadProfile::kStopWithin ? std::sqrt(2.0 * deceleration * distance) : 0.0;
 }
 
+double ShareWithin(const SpeedLimits& limits, double grip) {
+  return std::min(kShareOfGrip * grip / std::hypot(limits.lateral, limits.deceleration), 1.0);
+}
+
+SpeedLimits WithinGrip(const SpeedLimits& limits, double grip) {
+  const double share = ShareWithin(limits, grip);
+  return {.lateral = share * limits.lateral,
+          .acceleration = share * limits.acceleration,
+          .deceleration = share * limits.deceleration,
+          .emergency = std::min(limits.emergency, kShareOfGrip * grip)};
+}
+
 RoadProfile::RoadProfile(const Route& route, const RoadEdges& edges, const SpeedLimits& limits)
     : length_(route.length()), edges_(edges), limits_(limits) {
   const auto steps = std::max<long>(1, std::lround(std::ceil(length_ / kSpacing)));
   spacing_ = length_ / static_cast<double>(steps);
   points_.reserve(static_cast<std::size_t>(steps) + 1);
   along_.reserve(static_cast<std::size_t>(steps) + 1);
+  bend_squared_.reserve(static_cast<std::size_t>(steps) + 1);
   for (long k = 0; k <= steps; ++k) {
     RoutePoint point = route.At(static_cast<double>(k) * spacing_);
     const double curvature = std::max(std::abs(point.curvature), 1e-9);
-    point.speed = std::min(point.speed, std::sqrt(limits.lateral / curvature));
+    bend_squared_.push_back(limits.lateral / curvature);
+    point.speed = std::min(point.speed, std::sqrt(bend_squared_.back()));
     points_.push_back(point);
     along_.push_back(Along(point.psi));
   }
-  points_.back().speed = 0.0;
+  points_.back().speed = bend_squared_.back() = 0.0;
   for (std::size_t k = points_.size() - 1; k-- > 0;) {
     const double next = points_[k + 1].speed;
     points_[k].speed =
         std::min(points_[k].speed, std::sqrt(next * next + 2.0 * limits.deceleration * spacing_));
+    bend_squared_[k] =
+        std::min(bend_squared_[k], bend_squared_[k + 1] + 2.0 * limits.deceleration * spacing_);
   }
 }
 
@@ -63,6 +81,13 @@ RoutePoint RoadProfile::At(double s) const {
           .psi = Mix(from.psi, to.psi, share),
           .curvature = Mix(from.curvature, to.curvature, share),
           .speed = std::sqrt(squared)};
+}
+
+double RoadProfile::SpeedWithin(double grip, double s) const {
+  const double speed = At(s).speed, share = ShareWithin(limits_, grip);
+  if (share >= 1.0 || s >= length_) return speed;
+  const auto [k, from] = PlaceAt(std::max(s, 0.0));
+  return std::min(speed, std::sqrt(share * Mix(bend_squared_[k], bend_squared_[k + 1], from)));
 }
 
 double RoadProfile::TurnWithin(double s, double distance) const {

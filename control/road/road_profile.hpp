@@ -19,6 +19,12 @@ struct SpeedLimits {
   double emergency = 5.0;     // deceleration before an obstacle that cannot be passed [m/s²], > 0
 };
 
+// The share of the comfortable accelerations that tyres with this grip [m/s²] can give, in a bend and braking at once.
+[[nodiscard]] double ShareWithin(const SpeedLimits& limits, double grip);
+
+// The limits where the tyres have this grip [m/s²].
+[[nodiscard]] SpeedLimits WithinGrip(const SpeedLimits& limits, double grip);
+
 class RoadProfile {
  public:
   static constexpr double kSpacing = 0.5;      // sample spacing [m]
@@ -32,6 +38,9 @@ class RoadProfile {
 
   // `speed` is the profile's. The road continues straight before the start and after the end, where the speed is 0.
   [[nodiscard]] RoutePoint At(double s) const;
+  // The profile's speed where the tyres have this grip [m/s²]. Where the target speed falls, the comfortable deceleration
+  // counts even if they cannot give it.
+  [[nodiscard]] double SpeedWithin(double grip, double s) const;
   // The road's edges beside the point at s.
   [[nodiscard]] RoadBounds RoadAt(double s) const { return edges_.At(s); }
   // The road's bounds where they are narrowest between two arc lengths, from ≤ to.
@@ -52,6 +61,7 @@ class RoadProfile {
 
   std::vector<RoutePoint> points_;      // points at s = k spacing_
   std::vector<Eigen::Vector2d> along_;  // unit vectors along the road there
+  std::vector<double> bend_squared_;    // v² that bends and the end of the route allow there [m²/s²]
   double spacing_;
   double length_;
   RoadEdges edges_;

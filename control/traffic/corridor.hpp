@@ -60,6 +60,12 @@ class Corridor {
   Corridor(const CorridorSettings& settings, const RoadProfile& profile)
       : settings_(settings), profile_(&profile) {}
 
+  // What the tyres can provide from now on, and what the vehicle could brake with, as in the settings.
+  void SetGrip(double grip, double deceleration) {
+    settings_.grip = grip;
+    settings_.deceleration = deceleration;
+  }
+
   // The best way through the stations that `speeds` reaches; if there is none, the one that leads farthest. `kept`: the
   // previous side of each object.
   void Find(const Stations& stations, const RoadPosition& vehicle, std::span<const RoadObject> objects,

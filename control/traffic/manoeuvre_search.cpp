@@ -18,15 +18,20 @@ constexpr double kShareOfGrip = 0.9;  // of the grip that a path may use
 ManoeuvreSearch::ManoeuvreSearch(const TrafficSettings& settings, const RoadProfile& profile)
     : settings_(settings),
       profile_(&profile),
-      limits_(WithinGrip(profile.limits(), settings.grip)),
       objects_(settings.footprint, settings.horizon, profile),
       corridor_({.footprint = settings.footprint,
                  .obstacle_margin = settings.obstacle_margin,
-                 .road_margin = settings.road_margin,
-                 .grip = settings.grip,
-                 .deceleration = HardDeceleration(limits_)},
+                 .road_margin = settings.road_margin},
                 profile),
-      smoother_(settings.path) {}
+      smoother_(settings.path) {
+  SetGrip(settings.grip);
+}
+
+void ManoeuvreSearch::SetGrip(double grip) {
+  settings_.grip = grip;
+  limits_ = WithinGrip(profile_->limits(), grip);
+  corridor_.SetGrip(grip, HardDeceleration(limits_));
+}
 
 void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle,
                             const LateralPoint& start) {
@@ -39,7 +44,8 @@ void ManoeuvreSearch::Begin(std::span<const Obstacle> obstacles, const RoadPosit
 // Places the stations and reads the road's values there.
 void ManoeuvreSearch::Measure() {
   const double accelerated = vehicle_.speed + 0.5 * limits_.acceleration * settings_.horizon;
-  const double fastest = std::max(std::min(accelerated, profile_->At(vehicle_.s).speed), vehicle_.speed);
+  const double fastest =
+      std::max(std::min(accelerated, profile_->SpeedWithin(settings_.grip, vehicle_.s)), vehicle_.speed);
   // The first point may be as near as half of the spacing, which is kept as long as it fits.
   const double least =
       std::max(fastest * settings_.horizon, kShortest) / (static_cast<double>(kStations) - 1.5);
@@ -47,9 +53,8 @@ void ManoeuvreSearch::Measure() {
   const bool fits = spacing >= least && spacing <= kWidest * least;
   stations_ = Stations::OnGrid(vehicle_.s, fits ? spacing : 0.5 * (1.0 + kWidest) * least);
   for (std::size_t j = 0; j < kStations; ++j) {
-    const RoutePoint point = profile_->At(stations_.At(j));
-    road_speed_[j] = point.speed;
-    curvature_[j] = point.curvature;
+    road_speed_[j] = profile_->SpeedWithin(settings_.grip, stations_.At(j));
+    curvature_[j] = profile_->At(stations_.At(j)).curvature;
   }
 }
 

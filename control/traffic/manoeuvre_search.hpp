@@ -49,6 +49,8 @@ class ManoeuvreSearch {
 
   // Forgets where the stations were.
   void Reset() { stations_ = {}; }
+  // The acceleration that the tyres can provide from now on [m/s²].
+  void SetGrip(double grip);
   // Sets the place of the vehicle and selects the objects; must precede the searches. `start`: where paths begin. None of
   // the functions allocates.
   void Begin(std::span<const Obstacle> obstacles, const RoadPosition& vehicle, const LateralPoint& start);
@@ -90,7 +92,7 @@ class ManoeuvreSearch {
 
   TrafficSettings settings_;
   const RoadProfile* profile_;
-  SpeedLimits limits_;  // the road's, and in an emergency not more than the tyres can give
+  SpeedLimits limits_;  // the road's, and not more than the tyres can give
   RoadObjects objects_;
   Corridor corridor_;
   PathSmoother smoother_;

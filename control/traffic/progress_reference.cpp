@@ -22,7 +22,7 @@ constexpr double kLeastStretch = 0.2;
 }  // namespace
 
 double ProgressReference::SpeedAt(double s, double t, const Manoeuvre& manoeuvre) const {
-  const double limit = std::min(profile_->At(s).speed, manoeuvre.SpeedLimitAt(s));
+  const double limit = std::min(profile_->SpeedWithin(grip_, s), manoeuvre.SpeedLimitAt(s));
   return std::min(limit,
                   SpeedBefore(manoeuvre.stops(), s, t, limits_.deceleration, HardDeceleration(limits_)));
 }

@@ -25,7 +25,15 @@ class ProgressReference {
  public:
   // `grip`: acceleration that the tyres can give [m/s²].
   ProgressReference(const VehicleParameters& vehicle, const RoadProfile& profile, double t_s, double grip)
-      : vehicle_(vehicle), profile_(&profile), limits_(WithinGrip(profile.limits(), grip)), t_s_(t_s) {}
+      : vehicle_(vehicle), profile_(&profile), t_s_(t_s) {
+    SetGrip(grip);
+  }
+
+  // The acceleration that the tyres can give from now on [m/s²].
+  void SetGrip(double grip) {
+    grip_ = grip;
+    limits_ = WithinGrip(profile_->limits(), grip);
+  }
 
   // Fills `z` with N + 1 states, `u` with N inputs and `s` with N + 1 arc lengths on the road profile [m], starting
   // at the arc length s_0 and at about the speed `upsilon` [m/s].
@@ -38,7 +46,8 @@ class ProgressReference {
 
   VehicleParameters vehicle_;
   const RoadProfile* profile_;
-  SpeedLimits limits_;  // the road's, and in an emergency not more than the tyres can give
+  double grip_ = 0.0;   // [m/s²]
+  SpeedLimits limits_;  // the road's, and not more than the tyres can give
   double t_s_;
 };
 

@@ -29,13 +29,6 @@ struct SpeedPlan {
   return std::min(2.0 * limits.deceleration, 0.75 * limits.emergency);
 }
 
-// The limits, with an emergency braking that is not more than tyres with this grip [m/s²] can give.
-[[nodiscard]] inline SpeedLimits WithinGrip(SpeedLimits limits, double grip) {
-  constexpr double kShareOfGrip = 0.9;  // that braking may use
-  limits.emergency = std::min(limits.emergency, kShareOfGrip * grip);
-  return limits;
-}
-
 // Lowers the limits so that braking at `deceleration` [m/s²] meets each of them in time. [m/s]
 void LimitInTime(const Stations& stations, StationValues& limit, double deceleration);
 

@@ -27,6 +27,8 @@ class TrafficPlanner {
   // `profile` must outlive the planner.
   TrafficPlanner(const TrafficSettings& settings, const RoadProfile& profile);
 
+  // The acceleration that the tyres can provide from now on [m/s²].
+  void SetGrip(double grip) { search_.SetGrip(grip); }
   // Plans for a vehicle at this place. The manoeuvre belongs to the planner and is valid until the next call. Does not
   // allocate.
   [[nodiscard]] const Manoeuvre& Plan(std::span<const Obstacle> obstacles, const RoadPosition& vehicle);

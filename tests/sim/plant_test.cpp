@@ -89,6 +89,23 @@ TEST(Plant, DisturbedItIsTheDisturbedModelForSmallAngles) {
   EXPECT_LT((plant.Derivative(z, u) - model.Derivative(z, u)).cwiseAbs().maxCoeff(), 1e-5);
 }
 
+TEST(Plant, BrakeThatIsStrongerThanTheSlopeHoldsTheVehicleStill) {
+  for (PlantParameters parameters : {PlantParameters{}, Saturating(0.5)}) {
+    for (const double slope : {0.1, -0.1}) {
+      parameters.slope = slope;
+      const double pull = -kGravity * std::sin(slope);
+      EXPECT_EQ(Drive(parameters, Rolling(0.0), Input(0.0, -1.05), 5.0), Rolling(0.0)) << slope;
+      const State rolled = Drive(parameters, Rolling(0.0), Input(0.0, -0.5), 2.0);
+      EXPECT_NEAR(rolled[control::kUpsilon], 2.0 * (pull - std::copysign(0.5, pull)), 0.15) << slope;
+      const State stopped = Drive(parameters, rolled, Input(0.0, -3.0), 3.0);
+      EXPECT_EQ(stopped.tail<4>(), State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0).tail<4>()) << slope;
+    }
+  }
+  PlantParameters ice = Saturating(0.05);
+  ice.slope = 0.1;
+  EXPECT_LT(Drive(ice, Rolling(0.0), Input(0.0, -3.0), 2.0)[control::kUpsilon], -0.5);
+}
+
 TEST(Plant, WindBlowsInItsTimeAlone) {
   PlantParameters parameters;
   parameters.wind = {.from = 1.0, .until = 2.0, .lateral_acceleration = 1.0};

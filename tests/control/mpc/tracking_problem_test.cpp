@@ -190,6 +190,41 @@ TEST_F(TrackingProblemTest, WaitingVehicleStaysWhereItIsWithTheBrakeAppliedAtIts
   EXPECT_EQ(inputs, (std::vector<Input>{{0.1, -1.5}, {0.1, -1.0}, {0.1, -1.0}}));
 }
 
+TEST_F(TrackingProblemTest, WaitingVehicleBrakesMoreThanTheSlopePullsAndMoreStillOnceItHasRolled) {
+  const Obstacle wall{.id = 1, .X = 54.5, .Y = 0.0, .r_x = 0.5, .r_y = 5.0};
+  std::vector<State> states(4);
+  std::vector<Input> inputs(60);
+  const auto brake = [&](double upsilon, double a_x) {
+    tracking_.Begin(At(50.0, 0.0, upsilon), 50.0, {&wall, 1}, {.a_x = a_x});
+    EXPECT_TRUE(tracking_.waiting());
+    tracking_.Hold({0.0, 0.0}, states, inputs);
+    return -inputs.back()[kAcceleration];
+  };
+  EXPECT_DOUBLE_EQ(brake(0.0, -2.0), 3.0);
+  EXPECT_DOUBLE_EQ(brake(0.0, 2.0), 3.0);
+  EXPECT_DOUBLE_EQ(brake(-0.2, 0.0), 3.0);
+  EXPECT_DOUBLE_EQ(brake(0.0, 0.0), 3.0);
+  tracking_.Reset();
+  EXPECT_DOUBLE_EQ(brake(0.0, 0.0), 1.0);
+}
+
+// On a circle of 25 m, comfort allows 3 m/s². With μ = 0.3 the tyres give 0.27 g, of which nine tenths are used for a bend
+// and for braking together.
+TEST(TrackingProblem, WhereTheTyresGiveLessTheReferenceIsSlower) {
+  const RoadProfile road(testing::CircularRoad(25.0, 5.0, 12.0), {}, {});
+  TrackingProblem tracking({}, road, kSettings);
+  const auto speed = [&](double mu_limit) {
+    tracking.SetFrictionLimit(mu_limit);
+    tracking.Begin(At(0.0, 0.0, 8.0), 0.0, {});
+    EXPECT_NEAR(tracking.SpeedLimit(40), std::max(tracking.reference()[40][kUpsilon], 6.0) + 0.3, 0.35);
+    return tracking.reference()[40][kUpsilon];
+  };
+  const double comfort = std::sqrt(3.0 * 25.0);
+  EXPECT_NEAR(speed(kNoLimit), comfort, 0.05);
+  EXPECT_NEAR(speed(0.3), comfort * std::sqrt(0.9 * 0.27 * 9.81 / std::hypot(3.0, 2.0)), 0.05);
+  EXPECT_NEAR(speed(kNoLimit), comfort, 0.05);
+}
+
 TEST_F(TrackingProblemTest, OfManyObstaclesBesideAStepTheNearestHaveRows) {
   std::vector<Obstacle> obstacles;
   for (int k = 0; k < 60; ++k) obstacles.push_back(Circle(k, 62.0, k % 2 == 0 ? -3.8 + 0.005 * k : 3.9, 0.1));

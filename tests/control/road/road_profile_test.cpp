@@ -51,6 +51,18 @@ TEST(RoadProfile, ProjectionFindsPlaceAndLateralOffsetOfAPointBesideTheCourse) {
   }
 }
 
+TEST(RoadProfile, WithLessGripBendsAreSlowerAndBrakingBeforeThemIsMilder) {
+  const RoadProfile profile(WindingRoad(kRadius, 12.0), {}, {.lateral = 3.0, .deceleration = 2.0});
+  const double whole = std::hypot(3.0, 2.0) / 0.9, half = 0.5 * whole;
+  for (double s = -5.0; s < profile.length() + 5.0; s += 0.37) {
+    EXPECT_EQ(profile.SpeedWithin(whole, s), profile.At(s).speed) << s;
+    const double v = profile.SpeedWithin(half, s), next = profile.SpeedWithin(half, s + 0.5);
+    EXPECT_LE(v, profile.At(s).speed) << s;
+    EXPECT_LE(v * v * std::abs(profile.At(s).curvature), 0.5 * 3.0 + 0.02) << s;
+    EXPECT_GE(next * next, v * v - 2.0 * 0.5 * 2.0 * 0.5 - 1e-9) << s;
+  }
+}
+
 TEST(RoadProfile, ProjectionStaysOnTheLegThatTheHintIsOn) {
   const Route route = HairpinRoad(60.0, 6.0, 5.0);
   const RoadProfile profile(route, {}, {});
