@@ -165,6 +165,12 @@ ConfigTable VehicleTable() {
               Key(
                   "C_alpha_r", [](Config& c) { return &c.vehicle.C_alpha_r; }, {1e3, 1e7, "N/rad"},
                   "Cornering stiffness of one rear tyre"),
+              ChoiceKey(
+                  "driven_axle", {"both", "front", "rear"},
+                  [](const Config& c) { return static_cast<std::size_t>(c.vehicle.driven); },
+                  [](Config& c, std::size_t i) { c.vehicle.driven = static_cast<control::DrivenAxle>(i); },
+                  "The axle that drives. Its tyres alone give the acceleration, so that on a slippery road "
+                  "_lpv-affine_ and _nmpc-affine_ demand less of it, least of all in a bend"),
               Key(
                   "front", [](Config& c) { return &c.affine.footprint.front; }, {0.0, 20.0, "m"},
                   "Distance from the centre of gravity to the front end" + ends),

@@ -64,10 +64,29 @@ std::array<double, kWheels> Plant::Loads(const State& z, const Input& u) const {
           0.5 * rear + rear_transfer};
 }
 
+// Of the front and the rear wheels, for an acceleration of the vehicle [m/s²]; the driven wheels give all of it.
+std::array<double, 2> Plant::DriveForcePerLoad(double acceleration,
+                                               const std::array<double, kWheels>& loads) const {
+  const control::VehicleParameters& v = parameters_.vehicle;
+  const auto alone = [&](Wheel left, Wheel right) {
+    return v.m * acceleration / std::max(loads[left] + loads[right], 1.0);
+  };
+  switch (v.driven) {
+    case control::DrivenAxle::kFront:
+      return {alone(kFrontLeft, kFrontRight), 0.0};
+    case control::DrivenAxle::kRear:
+      return {0.0, alone(kRearLeft, kRearRight)};
+    case control::DrivenAxle::kBoth:
+      break;
+  }
+  return {acceleration / kGravity, acceleration / kGravity};
+}
+
 std::array<WheelForces, kWheels> Plant::Forces(const State& z, const Input& u) const {
   const control::VehicleParameters& v = parameters_.vehicle;
   const std::array<double, kWheels> loads = Loads(z, u);
-  const double force_per_load = u[control::kAcceleration] / kGravity;
+  const double brakes = std::min(u[control::kAcceleration], 0.0) / kGravity;  // force per load
+  const auto drives = DriveForcePerLoad(std::max(u[control::kAcceleration], 0.0), loads);
   const double cos_delta = std::cos(WheelAngle(u));
   const double sin_delta = std::sin(WheelAngle(u));
   std::array<WheelForces, kWheels> forces;
@@ -83,7 +102,7 @@ std::array<WheelForces, kWheels> Plant::Forces(const State& z, const Input& u) c
     WheelForces& wheel = forces[i];
     wheel.F_z = loads[i];
     wheel.slip = -std::atan2(sliding, std::max(std::abs(rolling), kSlipSpeed));
-    wheel.F_x = force_per_load * wheel.F_z * (force_per_load < 0.0 ? BrakeShare(rolling) : 1.0);
+    wheel.F_x = (BrakeShare(rolling) * brakes + drives[front ? 0 : 1]) * wheel.F_z;
     if (parameters_.tyre == Tyre::kLinear) {
       wheel.F_y = stiffness * wheel.slip;
       continue;

@@ -2,7 +2,7 @@
 //
 // State z = [X Y υ ν ψ ω] as in control/vehicle/types.hpp, input u = [δ a]: both front wheels are steered by δ, and
 // m a is the longitudinal force demanded of the tyres, shared among the wheels by their loads; a < 0 brakes and
-// never reverses.
+// never reverses, a > 0 acts on the driven wheels.
 //  - slip angle of a wheel: the angle between its plane and the velocity of its hub
 //  - linear tyres: F_y = C_α α, unlimited
 //  - saturating tyres: brush model (Fiala); F_x is limited to μ F_z, the side force to sqrt((μ F_z)² − F_x²)
@@ -79,6 +79,8 @@ class Plant {
   [[nodiscard]] Eigen::Vector2d Pull() const;
   [[nodiscard]] bool BrakeHolds(const control::Input& u) const;
   [[nodiscard]] std::array<double, kWheels> Loads(const control::State& z, const control::Input& u) const;
+  [[nodiscard]] std::array<double, 2> DriveForcePerLoad(double acceleration,
+                                                        const std::array<double, kWheels>& loads) const;
 
   PlantParameters parameters_;
   std::array<Eigen::Vector2d, kWheels> hubs_;  // positions in the body frame [m]

@@ -138,6 +138,8 @@ void ReadVehicle(const TomlTable& table, Scenario& scenario) {
   vehicle.I_z *= mass_factor;
   vehicle.C_alpha_f *= table.NumberOr("front_stiffness_factor", 1.0, kFactor);
   vehicle.C_alpha_r *= table.NumberOr("rear_stiffness_factor", 1.0, kFactor);
+  vehicle.driven = static_cast<control::DrivenAxle>(
+      table.ChoiceOr("driven_axle", static_cast<std::size_t>(vehicle.driven), {"both", "front", "rear"}));
   scenario.plant.tyre = static_cast<Tyre>(table.ChoiceOr("tyre", 0, {"linear", "saturating"}));
   scenario.plant.mu = table.NumberOr("mu", scenario.plant.mu, {0.05, 2.0});
   ReadDisturbances(table, scenario.plant);

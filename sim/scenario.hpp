@@ -68,6 +68,7 @@
 //   mass_factor = 1.0                 # of mass and yaw inertia
 //   front_stiffness_factor = 1.0
 //   rear_stiffness_factor = 1.0
+//   driven_axle = "both"              # or front, rear
 //   tyre = "linear"                   # or saturating
 //   mu = 0.9
 //   steering_lag = 0.0                # time constants [s]

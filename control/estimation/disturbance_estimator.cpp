@@ -79,7 +79,8 @@ DisturbanceVector DisturbanceEstimator::Observable(const Input& u) const {
   if (speed < settings_.slow) return {0.0, 0.0, 1.0, 0.0};
   const double lateral = std::abs(speed * z_[kOmega] - disturbance_.a_y);
   const double used = std::max(lateral, LinearDemand(vehicle_, z_, u, disturbance_).cwiseAbs().maxCoeff());
-  if (std::hypot(used, u[kAcceleration]) > settings_.linear_share * grip_.limit() * kGravity) {
+  if (std::hypot(used, TyreDemand(vehicle_, u[kAcceleration])) >
+      settings_.linear_share * grip_.limit() * kGravity) {
     return DisturbanceVector::Zero();
   }
   const bool cornering = speed > BlendedModel::kUpsilon2 && lateral > settings_.least_cornering;

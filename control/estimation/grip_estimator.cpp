@@ -91,9 +91,17 @@ double GripEstimator::FeltLaterally() const {
     if ((demand - response) * speed_ < kLeastShortfall || demand < kFalling * std::abs(before_[axle]))
       continue;
     if (response > kLateralShare * demand) continue;
-    felt = std::min(felt, std::hypot(BrushFriction(demand, response), braking_ / kGravity));
+    felt = std::min(felt, std::hypot(BrushFriction(demand, response), Along(axle) / kGravity));
   }
   return felt;
+}
+
+// The longitudinal force of the axle's tyres [m/s²]: all brake, but only those of the driven axle drive.
+double GripEstimator::Along(Axle axle) const {
+  if (braking_ >= 0.0) return braking_;
+  const bool drives =
+      vehicle_.driven == DrivenAxle::kBoth || (vehicle_.driven == DrivenAxle::kFront) == (axle == kFront);
+  return drives ? TyreDemand(vehicle_, -braking_) : 0.0;
 }
 
 double GripEstimator::FeltWhenBraking() const {

@@ -3,7 +3,8 @@
 //
 //   lateral, each axle   the side force from ν̇ + υω and ω̇, against that of linear tyres at the measured slip, while that rises. By the
 //                        brush model, their ratio tells how near to sliding the axle is, and so its μ.
-//   longitudinal         the deceleration, against the one that the brakes demand; from then on the tyres slide.
+//   longitudinal         the deceleration, against the one that the brakes demand; from then on the tyres slide. An acceleration
+//                        below the demanded one shows nothing, since an engine may be too weak for it.
 //
 // Only a clear shortfall that lasts counts, so neither noise, nor the curvature of an ordinary tyre's characteristic,
 // nor a stiffness that differs from the model lowers the bound. It falls at once and rises slowly, or to what the tyres
@@ -37,6 +38,7 @@ class GripEstimator {
  private:
   [[nodiscard]] double Given() const;
   [[nodiscard]] double FeltLaterally() const;
+  [[nodiscard]] double Along(Axle axle) const;
   [[nodiscard]] double FeltWhenBraking() const;
 
   VehicleParameters vehicle_;

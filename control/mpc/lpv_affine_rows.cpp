@@ -8,7 +8,9 @@
 namespace control {
 
 void LpvAffineMpc::AddInputRows(const Input& u_previous, int i) {
-  const Input u_min = LeastInput(settings_, grip_), u_max = MostInput(settings_, grip_);
+  const State& z_ref = tracking_.reference()[Index(i)];
+  const double across = z_ref[kUpsilon] * z_ref[kOmega] - disturbance_.a_y;
+  const Input u_min = LeastInput(settings_, grip_), u_max = MostInput(settings_, vehicle_, grip_, across);
   for (int j = 0; j < kInputs; ++j) {
     const double step = settings_.rate_max[j];
     if (i < settings_.horizon) {

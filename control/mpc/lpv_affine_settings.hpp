@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "control/qp/solver.hpp"
@@ -56,12 +57,15 @@ struct LpvAffineSettings {
   return settings.friction_share * std::min(settings.mu, mu_limit) * kGravity;
 }
 
-// Bounds of the inputs where the tyres give at most r = `grip` [m/s²].
+// Bounds of the inputs where the tyres give at most r = `grip`, of which driving leaves `across` for the bend of the
+// reference [m/s²].
 [[nodiscard]] inline Input LeastInput(const LpvAffineSettings& settings, double grip) {
   return {settings.u_min[kDelta], std::max(settings.u_min[kAcceleration], -grip)};
 }
-[[nodiscard]] inline Input MostInput(const LpvAffineSettings& settings, double grip) {
-  return {settings.u_max[kDelta], std::min(settings.u_max[kAcceleration], grip)};
+[[nodiscard]] inline Input MostInput(const LpvAffineSettings& settings, const VehicleParameters& vehicle,
+                                     double grip, double across) {
+  const double along = DrivenShare(vehicle) * std::sqrt(std::max(grip * grip - across * across, 0.0));
+  return {settings.u_max[kDelta], std::min(settings.u_max[kAcceleration], along)};
 }
 
 }  // namespace control

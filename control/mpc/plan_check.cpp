@@ -79,7 +79,7 @@ double PlanCheck::MostOffRoad(const State& z, const RouteProjection& centre) con
 // The tyres need not give the acceleration a_y of bank and wind.
 double PlanCheck::BeyondGrip(const State& z, const Input& u) const {
   const double across = z[kUpsilon] * z[kOmega] - a_y_;
-  return std::hypot(across, u[kAcceleration]) - mu_ * kGravity;
+  return std::hypot(across, TyreDemand(settings_.vehicle, u[kAcceleration])) - mu_ * kGravity;
 }
 
 void PlanCheck::Begin(const State& z, double s, std::span<const Obstacle> obstacles,

@@ -52,8 +52,10 @@ void AffineNmpcProblem::SetBounds() {
     bounds.hi[Index(at)] = hi;
   };
   constexpr double kBack = 0.99;  // share of the rate
-  const Input u_min = LeastInput(settings_, grip_), u_max = MostInput(settings_, grip_);
+  const Input u_min = LeastInput(settings_, grip_);
   for (int i = 0; i < horizon(); ++i) {
+    const State& z_ref = z_ref_[Index(i) + 1];
+    const Input u_max = MostInput(settings_, vehicle_, grip_, z_ref[kUpsilon] * z_ref[kOmega] - a_y_);
     for (int j = 0; j < kInputs; ++j) {
       const double step = settings_.rate_max[j];
       // An out-of-range input returns almost as fast as allowed: an interior-point method needs an interior.

@@ -203,6 +203,23 @@ TEST(Plant, LoadsAddUpToTheWeightAndAreNeverNegative) {
   }
 }
 
+TEST(Plant, DrivenAxleAloneDrivesAndBothBrake) {
+  for (const auto driven : {control::DrivenAxle::kFront, control::DrivenAxle::kRear}) {
+    PlantParameters parameters = Saturating(0.3);
+    parameters.vehicle.driven = driven;
+    const Plant plant(parameters, State::Zero());
+    const bool front = driven == control::DrivenAxle::kFront;
+    const auto gentle = plant.Forces(Rolling(10.0), Input(0.0, 0.5));
+    EXPECT_EQ(gentle[front ? kRearLeft : kFrontLeft].F_x, 0.0);
+    EXPECT_NEAR(2.0 * gentle[front ? kFrontLeft : kRearLeft].F_x, parameters.vehicle.m * 0.5, 1e-6);
+    // More than that axle's tyres hold.
+    const auto wheels = plant.Forces(Rolling(10.0), Input(0.0, 2.0));
+    const WheelForces& slides = wheels[front ? kFrontLeft : kRearLeft];
+    EXPECT_NEAR(slides.F_x, 0.3 * slides.F_z, 1e-6);
+    for (const WheelForces& wheel : plant.Forces(Rolling(10.0), Input(0.0, -1.0))) EXPECT_LT(wheel.F_x, 0.0);
+  }
+}
+
 TEST(Plant, LoadMovesOutwardsInATurnAndForwardsUnderBraking) {
   const Plant plant(PlantParameters{}, State::Zero());
   const auto turning = plant.Forces(Rolling(15.0, 0.0, 0.3), Input(0.0, 0.0));

@@ -112,6 +112,38 @@ TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessWhenBraking) {
   EXPECT_GT(hardest, 0.9 * grip) << "the road is blocked 30 m ahead";
 }
 
+// A vehicle sets off on ice, within a bend and on a straight road.
+TEST(LpvAffinePlan, SlipperyRoadIsAskedForLessOfOneDrivenAxle) {
+  LpvAffineSettings settings;
+  settings.mu = 0.15;
+  const double grip = settings.friction_share * settings.mu * 9.81;
+  const auto most = [&](const Route& route, const VehicleParameters& vehicle) {
+    const RoadProfile profile(route, {}, {});
+    LpvAffineMpc mpc(vehicle, profile, settings);
+    State z = State::Zero();
+    const RoutePoint start = profile.At(20.0);
+    z << start.X, start.Y, 3.0, 0.0, start.psi, 3.0 * start.curvature;
+    ControllerInput input;
+    input.z = z;
+    input.place.s = 20.0;
+    const Plan& plan = mpc.Step(input);
+    EXPECT_EQ(plan.status, SolverStatus::kSolved);
+    double a = 0.0;
+    for (std::size_t i = 0; i < plan.u.size(); ++i) {
+      a = std::max(a, plan.u[i][kAcceleration]);
+      const double across = plan.z[i + 1][kUpsilon] * plan.z[i + 1][kOmega];
+      EXPECT_LE(std::hypot(across, TyreDemand(vehicle, plan.u[i][kAcceleration])), 1.1 * grip) << i;
+    }
+    return a;
+  };
+  const double whole = most(StraightRoad(300.0, 12.0), {});
+  const double rear = most(StraightRoad(300.0, 12.0), {.driven = DrivenAxle::kRear});
+  EXPECT_LE(rear, 1.04 / 2.44 * grip + 1e-6);
+  EXPECT_GT(rear, 0.9 * 1.04 / 2.44 * grip);
+  EXPECT_GT(whole, 1.2 * rear);
+  EXPECT_LT(most(testing::CircularRoad(10.0, 3.0, 12.0), {.driven = DrivenAxle::kRear}), 0.9 * rear);
+}
+
 TEST(LpvAffinePlan, InputThatIsOutOfRangeComesBackAsFastAsItMay) {
   for (const Input& out : {Input(0.62, 0.0), Input(-0.62, 0.0), Input(0.0, -8.5), Input(0.0, 4.2)}) {
     RoadLoop loop(StraightRoad(200.0, 6.0));

@@ -213,6 +213,24 @@ TEST_F(PlanCheckTest, FrictionThatIsFeltToBeLessCounts) {
   EXPECT_NEAR(violation->amount, 4.0 - 0.35 * kGravity, 1e-9);
 }
 
+TEST_F(PlanCheckTest, MoreThanTheDrivenAxleGivesIsFriction) {
+  VehicleParameters vehicle;
+  for (const auto& [driven, fits] :
+       {std::pair(DrivenAxle::kBoth, true), std::pair(DrivenAxle::kRear, false)}) {
+    vehicle.driven = driven;
+    PlanCheck check({.vehicle = vehicle, .footprint = footprint_, .mu = 0.2}, profile_);
+    check.Begin(At(20.0, 0.0), 20.0, {});
+    const auto violation = check.Validate(Constant(0.0, 1.5));
+    EXPECT_EQ(!violation, fits);
+    if (!fits) {
+      ASSERT_TRUE(violation);
+      EXPECT_EQ(violation->constraint.kind, ConstraintKind::kFriction);
+    }
+    check.Begin(At(20.0, 0.0), 20.0, {});
+    EXPECT_FALSE(check.Validate(Constant(0.0, -1.5))) << "all brake";
+  }
+}
+
 TEST_F(PlanCheckTest, MoreThanTheTyresGiveIsFriction) {
   const auto violation = Validate(At(20.0, 0.0), 20.0, Constant(0.12, 0.0), {});
   ASSERT_TRUE(violation);
